@@ -7,6 +7,7 @@
 #include "smoothing/margins/family_traits.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/text.h"
+#include "wpg/motion/lipm.h"
 #include "wpg/nth.h"
 
 namespace halfstep {
@@ -113,9 +114,12 @@ HalfStep PrototypeOf(const ExperimentConfig& config) {
 
 Experiment Prepare(const ExperimentConfig& config) { return Prepare(config, LoadPlace(config)); }
 
+std::shared_ptr<const MotionModel> MotionModelOf(const RobotModel& robot) {
+  return std::make_shared<Lipm>(robot.com_height);
+}
+
 HalfStepSequence SequenceOf(const ExperimentConfig& config, const RobotModel& robot) {
-  const Lipm lipm{.com_height = robot.com_height};
-  if (config.footsteps.empty()) return {StartOf(config, robot), {}, lipm};
+  if (config.footsteps.empty()) return {StartOf(config, robot), {}, MotionModelOf(robot)};
   std::vector<Footstep> footsteps;
   for (const FootstepConfig& step : config.footsteps) {
     footsteps.push_back({.side = step.foot == "left" ? Side::kLeft : Side::kRight,
@@ -124,7 +128,7 @@ HalfStepSequence SequenceOf(const ExperimentConfig& config, const RobotModel& ro
                          .duration = step.duration.value_or(config.half_step.duration)});
   }
   return MakeSequence(StartOf(config, robot), footsteps, config.half_step.via_lateral,
-                      ShapeOf(config.half_step), lipm);
+                      ShapeOf(config.half_step), MotionModelOf(robot));
 }
 
 Experiment Prepare(const ExperimentConfig& config, Place place) {

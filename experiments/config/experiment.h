@@ -2,6 +2,7 @@
 
 #include <array>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,6 +48,9 @@ std::array<Foothold, 2> StartOf(const ExperimentConfig& config, const RobotModel
 
 /// The half-steps of a config without their place: duration, via point, shape.
 HalfStep PrototypeOf(const ExperimentConfig& config);
+
+/// What proposes how CoM and ZMP of a robot move.
+std::shared_ptr<const MotionModel> MotionModelOf(const RobotModel& robot);
 
 /// The half-steps of a config's footsteps; empty without footsteps.
 HalfStepSequence SequenceOf(const ExperimentConfig& config, const RobotModel& robot);

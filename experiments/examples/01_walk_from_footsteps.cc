@@ -14,7 +14,7 @@ int main() {
       {.side = Side::kRight, .X_WF = Foothold::Level({0.4, -y, 0})},
       {.side = Side::kLeft, .X_WF = Foothold::Level({0.4, y, 0})}};
   const HalfStepSequence sequence =
-      MakeSequence(start, footsteps, 0.24, {}, Lipm{.com_height = robot.com_height});
+      MakeSequence(start, footsteps, 0.24, {}, std::make_shared<Lipm>(robot.com_height));
 
   // Without overlaps: half-steps that begin and end at rest, one after the other.
   HomotopyParameters parameters = PlannedMotion(sequence);

@@ -151,7 +151,7 @@ WalkPlan ReadWalk(const Tables& tables, size_t walk, const LiveConfig& config, c
   const HalfStepConfig& half_step = config.experiment.half_step;
   WalkPlan plan;
   plan.sequence = MakeSequence(start, footsteps, half_step.via_lateral, ShapeOf(half_step),
-                               Lipm{.com_height = place.robot.com_height});
+                               MotionModelOf(place.robot));
   plan.parameters = ReadParameters(tables.folder() / WalkFolder(walk), plan.sequence);
   return plan;
 }

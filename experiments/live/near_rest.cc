@@ -33,7 +33,7 @@ std::optional<NearRest> NearRest::AtStart(const SafetyCheck& among, const Experi
   const Footstep in_place{.side = Side::kRight, .X_WF = Nth(start, Index(Side::kRight))};
   WalkPlan plan;
   plan.sequence = MakeSequence(start, {in_place}, like.via_lateral, like.shape,
-                               {.com_height = among.evaluator().robot().com_height});
+                               MotionModelOf(among.evaluator().robot()));
   plan.parameters = PlannedMotion(plan.sequence);
   return At(among, config, plan.Walk(), 0, 0.0);
 }

@@ -25,7 +25,7 @@ std::string KeyOf(const SuperposedWalk& walk, int j) {
     key.push_back(half_step.kind == HalfStepKind::kUp ? 'u' : 'd');
     add_place(walk.X_WS(j).Inverse() * walk.X_WS(i));
     add_place(half_step.X_SF);
-    for (const double x : {begin - walk.start_of(i), walk.profiles(i).duration(),
+    for (const double x : {begin - walk.start_of(i), walk.tracks(i).duration(),
                            half_step.via_height, half_step.via_lateral, half_step.via_along}) {
       add(x);
     }

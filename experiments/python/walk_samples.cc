@@ -62,7 +62,7 @@ void PutWithoutJoints(const RobotModel& robot, const SuperposedWalk& walk, doubl
   put(t);
   put(at.half_step + 1.0);
   put(step < 0 ? kBoth : CodeOf(Name(walk.half_step(2 * step).support)));
-  for (const double com : {jet.value[kComX], jet.value[kComY], walk.lipm().com_height}) put(com);
+  for (const double com : {jet.value[kComX], jet.value[kComY], robot.com_height}) put(com);
   for (const WalkState* rate : {&jet.first, &jet.second}) {
     put((*rate)[kComX]);
     put((*rate)[kComY]);

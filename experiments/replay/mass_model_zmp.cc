@@ -1,12 +1,12 @@
 #include "experiments/replay/mass_model_zmp.h"
 
 #include "wpg/nth.h"
+#include "wpg/robot/gravity.h"
 
 namespace halfstep::replay {
 namespace {
 
 using Eigen::Vector3d;
-constexpr double kGravity = 9.81;  // [m/s²]
 
 // CoMs of all links in W.
 std::vector<Vector3d> LinkCentres(const RobotModel& robot, const RobotTree& tree,

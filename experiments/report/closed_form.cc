@@ -6,7 +6,9 @@
 #include "experiments/tables/csv_reader.h"
 #include "experiments/tables/parameter_tables.h"
 #include "wpg/files/number_text.h"
+#include "wpg/motion/lipm.h"
 #include "wpg/nth.h"
+#include "wpg/robot/gravity.h"
 
 namespace halfstep {
 namespace {
@@ -29,6 +31,7 @@ json HalfStepJson(const PlacedHalfStep& placed) {
   for (const ParameterFamily family : AllParameterFamilies()) {
     const ParameterFamilyTraits& traits = Traits(family);
     const std::string column(traits.column);
+    if (traits.factor) continue;
     if (traits.number != nullptr) numbers[column] = half_step.*traits.number;
     if (traits.shape != nullptr) numbers[column] = half_step.shape.*traits.shape;
   }
@@ -50,13 +53,15 @@ json FamiliesJson() {
 }  // namespace
 
 json ClosedFormJson(const RobotModel& robot, const HalfStepSequence& sequence) {
+  const auto* lipm = dynamic_cast<const Lipm*>(sequence.model.get());
+  if (lipm == nullptr) return nullptr;
   json half_steps = json::array();
   for (const PlacedHalfStep& placed : sequence.half_steps) {
     half_steps.push_back(HalfStepJson(placed));
   }
-  return {{"half_steps", std::move(half_steps)},      {"families", FamiliesJson()},
-          {"com_height_m", sequence.lipm.com_height}, {"gravity_m_s2", sequence.lipm.gravity},
-          {"waist_height_m", robot.waist_height},     {"com_ahead_m", robot.com_x_B}};
+  return {{"half_steps", std::move(half_steps)},  {"families", FamiliesJson()},
+          {"com_height_m", lipm->com_height()},   {"gravity_m_s2", kGravity},
+          {"waist_height_m", robot.waist_height}, {"com_ahead_m", robot.com_x_B}};
 }
 
 json ParametersJson(const fs::path& folder, int size) {

@@ -11,7 +11,7 @@ namespace halfstep {
 /// What the page needs to evaluate the closed form of walks on the same footsteps by itself:
 /// half-steps in S with their places X_WS [m, rad], the families of half_steps.csv, the LIPM and
 /// the robot's posture over it. What a family is of a half-step stands there under its column.
-/// Places to 12 digits.
+/// Places to 12 digits. Null where the model is no LIPM: the page knows no other.
 nlohmann::json ClosedFormJson(const RobotModel& robot, const HalfStepSequence& sequence);
 
 /// The homotopy parameters of a method's folder, exactly as its half_steps.csv and overlaps.csv

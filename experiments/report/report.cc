@@ -218,6 +218,7 @@ void AddClosedForm(const RobotModel& robot, const Scene& scene, const fs::path& 
   const Experiment experiment =
       Prepare(LoadConfig((folder / "config.yaml").string(), {}, methods), Place{robot, scene});
   (*one)["closed_form"] = ClosedFormJson(experiment.robot, experiment.sequence);
+  if ((*one)["closed_form"].is_null()) return;
   for (json& walk : (*one)["walks"]) {
     const auto method = walk["summary"].at("method").get<std::string>();
     walk["parameters"] = ParametersJson(folder / MethodFolder(method), experiment.sequence.size());

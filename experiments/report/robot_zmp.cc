@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "experiments/report/trajectory_states.h"
-#include "wpg/motion/lipm.h"
 #include "wpg/motion/posture.h"
 #include "wpg/motion/robot_dynamics.h"
+#include "wpg/robot/gravity.h"
 
 namespace halfstep {
 namespace {
@@ -24,7 +24,7 @@ void Differentiate(const std::array<double, 3>& t, const std::array<WalkState, 3
 std::optional<Eigen::Vector2d> ZmpOf(const RobotModel& robot, const WalkJet& jet) {
   Posture posture = SolvePosture(robot, jet.value);
   if (!posture.reachable || !SolveJointSpeeds(robot, jet, &posture)) return std::nullopt;
-  return RobotDynamics(robot, jet, posture, Lipm{}.gravity).Zmp();
+  return RobotDynamics(robot, jet, posture, kGravity).Zmp();
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ HalfStepCertifier::HalfStepCertifier(const RobotModel& robot, const Scene& scene
 
 HalfStepCertifier::HalfStepCertifier(const MarginEvaluator& evaluator,
                                      const CertificationOptions& options)
-    : lipm_{.com_height = evaluator.robot().com_height},
+    : model_(MotionModelOf(evaluator.robot())),
       evaluator_(evaluator),
       feasibility_(evaluator, options) {}
 
@@ -55,7 +55,7 @@ bool HalfStepCertifier::Certifies(const HalfStep& half_step, const Foothold& X_W
                           .via_height = half_step.via_height,
                           .duration = half_step.duration};
   const HalfStepSequence sequence =
-      MakeSequence(start, {footstep}, half_step.via_lateral, half_step.shape, lipm_);
+      MakeSequence(start, {footstep}, half_step.via_lateral, half_step.shape, model_);
   const SuperposedWalk walk(sequence, PlannedMotion(sequence));
   const int i = half_step.kind == HalfStepKind::kUp ? 0 : 1;
   MarginEvaluator::Scratch scratch = evaluator_.MakeScratch();
@@ -95,8 +95,8 @@ std::string MissedInPlace(const RobotModel& robot, const Scene& scene,
                           .X_WF = Nth(start, Index(Side::kLeft)),
                           .via_height = prototype.via_height,
                           .duration = prototype.duration};
-  const HalfStepSequence sequence = MakeSequence(start, {footstep}, prototype.via_lateral,
-                                                 prototype.shape, {.com_height = robot.com_height});
+  const HalfStepSequence sequence =
+      MakeSequence(start, {footstep}, prototype.via_lateral, prototype.shape, MotionModelOf(robot));
   const MarginEvaluator evaluator(robot, scene, config.smoothing.limits);
   const CertifiedFeasibility test(evaluator, config.smoothing.certification);
   const SuperposedWalk walk(sequence, PlannedMotion(sequence));
@@ -143,7 +143,7 @@ BakedHalfSteps BakeHalfSteps(const RobotModel& robot, const ExperimentConfig& co
     folder = (std::filesystem::path(config.directory) / config.swept_volumes.cache).string();
   }
   baked.cached =
-      LoadOrBakeSweptVolumes(robot, {.com_height = robot.com_height}, set, options, folder,
+      LoadOrBakeSweptVolumes(robot, *MotionModelOf(robot), set, options, folder,
                              {.threads = 0, .stop = hooks.stop, .progress = progress("bake")});
   baked.wall = SteadySeconds() - set_done;
   return baked;
@@ -189,7 +189,7 @@ PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
   };
   request.accepts = [&](const std::vector<Footstep>& footsteps) {
     return CertifyPlan(test, MakeSequence(request.start, footsteps, prototype.via_lateral,
-                                          prototype.shape, {.com_height = place.robot.com_height}));
+                                          prototype.shape, MotionModelOf(place.robot)));
   };
   request.max_refusals = config.planner.max_refusals;
   request.clock = SteadySeconds;

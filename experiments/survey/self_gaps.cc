@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 #include <utility>
 
 #include "smoothing/walk/superposed_walk.h"
+#include "wpg/motion/lipm.h"
 #include "wpg/nth.h"
 #include "wpg/robot/robot_measures.h"
 
@@ -24,7 +26,8 @@ HalfStepSequence SixStepsOf(const RobotModel& robot, const HalfStep& prototype, 
          .duration = prototype.duration});
   }
   return MakeSequence({Foothold::Level({0, y, 0}), Foothold::Level({0, -y, 0})}, footsteps,
-                      prototype.via_lateral, prototype.shape, Lipm{.com_height = robot.com_height});
+                      prototype.via_lateral, prototype.shape,
+                      std::make_shared<Lipm>(robot.com_height));
 }
 
 // Postures of the planned motion at equal steps of each half-step; some may not be reachable.

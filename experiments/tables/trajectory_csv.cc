@@ -103,7 +103,7 @@ std::vector<MotionCell> MotionRow(const RobotModel& robot, const SuperposedWalk&
   const Eigen::Vector3d waist = posture.X_WB.translation();
   std::vector<MotionCell> row = {t, static_cast<long>(at.half_step + 1), SupportName(walk, at)};
   const auto add = [&row](auto... values) { (row.emplace_back(values), ...); };
-  add(jet.value[kComX], jet.value[kComY], walk.lipm().com_height);
+  add(jet.value[kComX], jet.value[kComY], robot.com_height);
   add(jet.first[kComX], jet.first[kComY], jet.second[kComX], jet.second[kComY]);
   add(jet.value[kZmpX], jet.value[kZmpY]);
   add(waist.x(), waist.y(), waist.z(), jet.value[kWaistYaw]);

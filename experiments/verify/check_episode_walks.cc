@@ -28,7 +28,7 @@ bool IsFinite(const FootstepRow& row) {
 // The sequence of footsteps.csv; of no half-steps when it is none.
 HalfStepSequence SequenceOf(const std::vector<FootstepRow>& rows, const EpisodeWalkFrame& frame,
                             const std::string& path, Findings* findings) {
-  HalfStepSequence none{.start = frame.start, .half_steps = {}, .lipm = {}};
+  HalfStepSequence none{.start = frame.start, .half_steps = {}, .model = std::make_shared<Lipm>()};
   if (rows.size() < 3) {
     findings->Disagree(path + ": no footstep");
     return none;
@@ -56,7 +56,7 @@ HalfStepSequence SequenceOf(const std::vector<FootstepRow>& rows, const EpisodeW
     }
   }
   return MakeSequence(frame.start, footsteps, frame.via_lateral, frame.shape,
-                      {.com_height = frame.robot.com_height});
+                      std::make_shared<Lipm>(frame.robot.com_height));
 }
 
 // Whether the rows of half_steps.csv make a walk of the half-steps.

@@ -7,7 +7,7 @@
 
 #include "experiments/verify/tolerances.h"
 #include "wpg/geometry/support_polygon.h"
-#include "wpg/motion/lipm.h"
+#include "wpg/robot/gravity.h"
 
 namespace halfstep::verify {
 namespace {
@@ -115,7 +115,7 @@ void CheckConsistency(const PlayedMotion& motion, const DescribedWalk& walk, Fin
   const RobotModel& robot = motion.robot();
   const std::vector<PlayedRow>& rows = motion.rows();
   const Tolerances near(robot);
-  const double k = robot.com_height / Lipm{}.gravity;  // z_c/g
+  const double k = robot.com_height / kGravity;  // z_c/g
   Check soles("soles by forward kinematics", "m or rad", 0, near.sole);
   Check waist("waist under the CoM", "m", 0, near.sole);
   Check pendulum("pendulum", "m", 0, near.pendulum);

@@ -11,12 +11,13 @@
 #include "wpg/motion/moved_footsteps.h"
 #include "wpg/motion/posture.h"
 #include "wpg/nth.h"
+#include "wpg/robot/gravity.h"
 
 namespace halfstep::verify {
 
 DescribedWalk::DescribedWalk(const RobotModel& robot, const HalfStepSequence& planned,
                              const std::vector<HalfStepRow>& rows)
-    : robot_(robot), lipm_(planned.lipm) {
+    : robot_(robot), lipm_(robot.com_height) {
   HALFSTEP_CHECK(!rows.empty() && rows.size() == planned.half_steps.size(),
                  rows.size() << " rows, " << planned.half_steps.size() << " half-steps");
   std::vector<Pose2> moves;
@@ -32,12 +33,8 @@ DescribedWalk::DescribedWalk(const RobotModel& robot, const HalfStepSequence& pl
     half_step.shape.support_point = rows[i].support_point;
     const FormColumns form = rows[i].FormOf(as_planned);
     for (const FormColumn& one : AllFormColumns()) one.in(&half_step) = form.*one.value;
-    const WalkState from = Transformed(X_WS, half_step.Start());
-    pieces_.push_back({.half_step = half_step,
-                       .profiles = {half_step.kind, half_step.shape, half_step.duration, lipm_},
-                       .start = rows[i].start,
-                       .from = from,
-                       .delta = Transformed(X_WS, half_step.End()) - from});
+    pieces_.push_back(
+        {.half_step = half_step, .tracks = {half_step, lipm_, X_WS}, .start = rows[i].start});
   }
 }
 
@@ -49,39 +46,26 @@ DescribedWalk DescribedWalk::StopBranch(int last) const {
 
 std::pair<double, double> DescribedWalk::WindowOf(int half_step) const {
   const Piece& piece = Nth(pieces_, half_step);
-  return {piece.start, piece.start + piece.profiles.duration()};
+  return {piece.start, piece.start + piece.tracks.duration()};
 }
 
 WalkJet DescribedWalk::At(double t) const {
   WalkJet jet;
-  jet.value = pieces_.front().from;
+  jet.value = pieces_.front().tracks.start();
   for (size_t i = 0; i < pieces_.size(); ++i) {
-    const Piece& piece = pieces_[i];
-    const double tau = Local(t, i);
-    if (tau <= 0) continue;
-    if (tau >= piece.profiles.duration()) {
-      jet.value += piece.delta;
-      continue;
-    }
-    const HalfStepJet profiles = piece.profiles.At(tau);
-    for (int q = 0; q < kNumQuantities; ++q) {
-      const ProfileJet& p = profiles.of(q);
-      jet.value[q] += p.value * piece.delta[q];
-      jet.first[q] += p.first * piece.delta[q];
-      jet.second[q] += p.second * piece.delta[q];
-    }
+    if (Local(t, i) > 0) pieces_[i].tracks.AddMotion(Local(t, i), &jet);
   }
   return jet;
 }
 
 bool DescribedWalk::HasLanded(double t, size_t up) const {
   const size_t down = up + 1;
-  return down < pieces_.size() && Local(t, down) > pieces_[down].profiles.t1();
+  return down < pieces_.size() && Local(t, down) > pieces_[down].tracks.t1();
 }
 
 int DescribedWalk::StepInAir(double t) const {
   for (size_t up = 0; up < pieces_.size(); up += 2) {
-    if (Local(t, up) >= pieces_[up].profiles.t2() && !HasLanded(t, up)) {
+    if (Local(t, up) >= pieces_[up].tracks.t2() && !HasLanded(t, up)) {
       return static_cast<int>(up / 2);
     }
   }
@@ -107,12 +91,12 @@ bool DescribedWalk::MovesHorizontally(double t, int side) const {
   if (step < 0) return false;
   const size_t up = 2 * static_cast<size_t>(step), down = up + 1;
   if (Index(pieces_[up].half_step.swing()) != side) return false;
-  const HalfStepProfiles& rise = pieces_[up].profiles;
+  const HalfStepTracks& rise = pieces_[up].tracks;
   const bool begun = Local(t, up) >= rise.horizontal_begin();
   const bool rises = Local(t, up) <= rise.duration();
   if (down == pieces_.size()) return begun && rises;
   return (begun || Local(t, down) >= 0) &&
-         (Local(t, down) <= pieces_[down].profiles.horizontal_end() || rises);
+         (Local(t, down) <= pieces_[down].tracks.horizontal_end() || rises);
 }
 
 PlayedRow DescribedWalk::Row(double t) const {
@@ -122,7 +106,7 @@ PlayedRow DescribedWalk::Row(double t) const {
   row.t = t;
   row.half_step = HalfStepAt(t);
   row.support = SupportAt(t);
-  row.com << jet.value.segment<2>(kComX), lipm_.com_height;
+  row.com << jet.value.segment<2>(kComX), lipm_.com_height();
   row.com_velocity = jet.first.segment<2>(kComX);
   row.com_acceleration = jet.second.segment<2>(kComX);
   row.zmp = jet.value.segment<2>(kZmpX);
@@ -146,7 +130,7 @@ std::array<Vector6d, 2> DescribedWalk::JointSpeeds(double t) const {
 
 WalkDynamics DescribedWalk::DynamicsAt(double t) const {
   WalkDynamics dynamics;
-  const auto momentum = RobotMomentum::Of(robot_, At(t), lipm_.gravity);
+  const auto momentum = RobotMomentum::Of(robot_, At(t), kGravity);
   if (!momentum) return dynamics;
   PlayedRow row = Row(t);
   row.zmp = momentum->Zmp();
@@ -171,15 +155,12 @@ double WalkDynamics::LeastTorqueMargin(const RobotModel& robot) const {
 }
 
 double DescribedWalk::ComFourthBound(double begin, double end) const {
-  Eigen::Vector2d com{0, 0}, zmp{0, 0};
+  WalkState second = WalkState::Zero();
   for (size_t i = 0; i < pieces_.size(); ++i) {
-    const Piece& piece = pieces_[i];
-    if (Local(end, i) <= 0 || Local(begin, i) >= piece.profiles.duration()) continue;
-    const HalfStepJet second = piece.profiles.SecondBounds(Local(begin, i), Local(end, i));
-    com += second.com.second * piece.delta.segment<2>(kComX).cwiseAbs();
-    zmp += second.zmp.second * piece.delta.segment<2>(kZmpX).cwiseAbs();
+    pieces_[i].tracks.AddSecondBounds(Local(begin, i), Local(end, i), &second);
   }
-  return lipm_.omega() * lipm_.omega() * (com + zmp).norm();
+  return lipm_.omega() * lipm_.omega() *
+         (second.segment<2>(kComX) + second.segment<2>(kZmpX)).norm();
 }
 
 }  // namespace halfstep::verify

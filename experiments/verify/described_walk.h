@@ -8,6 +8,8 @@
 #include "experiments/verify/played_motion.h"
 #include "experiments/verify/walk_text.h"
 #include "wpg/motion/half_step_sequence.h"
+#include "wpg/motion/half_step_tracks.h"
+#include "wpg/motion/lipm.h"
 #include "wpg/nth.h"
 #include "wpg/robot/robot_model.h"
 
@@ -54,7 +56,7 @@ class DescribedWalk {
   /// When a half-step, counted from 0, begins and ends [s].
   std::pair<double, double> WindowOf(int half_step) const;
   /// Duration of the walk [s].
-  double end() const { return pieces_.back().start + pieces_.back().profiles.duration(); }
+  double end() const { return pieces_.back().start + pieces_.back().tracks.duration(); }
   /// All quantities and two time derivatives at t [s], in W.
   WalkJet At(double t) const;
 
@@ -80,9 +82,8 @@ class DescribedWalk {
  private:
   struct Piece {
     HalfStep half_step;
-    HalfStepProfiles profiles;
+    HalfStepTracks tracks;  // in W
     double start = 0;
-    WalkState from, delta;  // f_i(0), f_i(T_i) − f_i(0); in W
   };
   double Local(double t, size_t piece) const { return t - pieces_[piece].start; }
   // Whether the foot that half-step `up` raised stands again.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "wpg/motion/lipm.h"
+#include "wpg/robot/gravity.h"
 #include "wpg/robot/robot_measures.h"
 
 namespace halfstep::verify {
@@ -37,7 +37,7 @@ Tolerances::Tolerances(const RobotModel& robot)
       joint_speed(1e-6 / time),
       foot_speed(1e-6 * time),
       momentum(1e-7 * size),
-      torque(std::min(kOfWeight * robot.mass * Lipm{}.gravity * LegLengthOf(robot),
+      torque(std::min(kOfWeight * robot.mass * kGravity * LegLengthOf(robot),
                       kOfLeastLimit * LeastLimit(robot, &LegJoint::max_torque))),
       friction(1e-6),
       acceleration(

@@ -5,6 +5,7 @@
 
 #include "wpg/check.h"
 #include "wpg/files/text.h"
+#include "wpg/robot/gravity.h"
 
 namespace halfstep {
 namespace {
@@ -12,7 +13,6 @@ namespace {
 constexpr double kMost = 20.0;          // of sizes and distances, in heights and extents
 constexpr double kLeast = 1.0 / 500.0;  // of sizes, in heights
 constexpr double kFastest = 10.0;       // of speeds, in √(g·height)
-constexpr double kGravity = 9.81;       // [m/s²]
 
 // The worst obstacle of a kind, and how many there are.
 struct Kind {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "wpg/check.h"
+#include "wpg/motion/half_step_tracks.h"
 #include "wpg/nth.h"
 
 namespace halfstep {
@@ -108,9 +109,8 @@ std::optional<SweptVolumeBaker::Twin> SweptVolumeBaker::FindTwin(size_t body) co
 }
 
 std::optional<std::vector<SweptVolumeBaker::Placement>> SweptVolumeBaker::Cover(
-    const HalfStep& half_step, const Lipm& lipm) const {
-  const HalfStepProfiles profiles(half_step.kind, half_step.shape, half_step.duration, lipm);
-  const WalkState change = (half_step.End() - half_step.Start()).cwiseAbs();
+    const HalfStep& half_step, const MotionModel& model) const {
+  const HalfStepTracks tracks(half_step, model);
   struct Task {
     double from, to;
     std::vector<size_t> bodies;
@@ -124,11 +124,10 @@ std::optional<std::vector<SweptVolumeBaker::Placement>> SweptVolumeBaker::Cover(
     Task task = std::move(tasks.back());
     tasks.pop_back();
     const double mid = 0.5 * (task.from + task.to), width = task.to - task.from;
-    const HalfStepJet sup = profiles.SecondBounds(task.from, task.to);
-    WalkState second;
-    for (int q = 0; q < kNumQuantities; ++q) second[q] = change[q] * sup.of(q).second;
+    WalkState second = WalkState::Zero();
+    tracks.AddSecondBounds(task.from, task.to, &second);
     // A little wider, for the rounding of the interval's ends.
-    bounds_.Bound(Evaluate(half_step, profiles, mid), second, 0.5 * width * (1 + 1e-9), &motion);
+    bounds_.Bound(tracks.At(mid), second, 0.5 * width * (1 + 1e-9), &motion);
     const bool last = width <= options_.shortest_interval;
     if (motion.bounded) {
       const double most = (width <= kLongest ? 1.0 : kSlow) * options_.displacement;
@@ -193,9 +192,10 @@ bool SweptVolumeBaker::AddTwin(const Placement& placement, const Placement& twin
   return true;
 }
 
-std::optional<BoxTree> SweptVolumeBaker::Bake(const HalfStep& half_step, const Lipm& lipm) const {
+std::optional<BoxTree> SweptVolumeBaker::Bake(const HalfStep& half_step,
+                                              const MotionModel& model) const {
   half_step.X_SF.CheckLevel();
-  const auto placements = Cover(half_step, lipm), mirrored = Cover(half_step.Mirrored(), lipm);
+  const auto placements = Cover(half_step, model), mirrored = Cover(half_step.Mirrored(), model);
   if (!placements || !mirrored) return std::nullopt;
   std::map<std::pair<size_t, double>, const Placement*> left;  // mirrored ones, by body and time
   for (const Placement& placement : *mirrored) {

@@ -6,8 +6,8 @@
 #include "planner/swept/box_tree.h"
 #include "planner/swept/voxel_grid.h"
 #include "wpg/motion/half_step.h"
-#include "wpg/motion/lipm.h"
 #include "wpg/motion/motion_bounds.h"
+#include "wpg/motion/motion_model.h"
 #include "wpg/robot/robot_model.h"
 
 namespace halfstep {
@@ -40,14 +40,15 @@ class SweptVolumeBaker {
   };
   /// Intervals that cover all of the half-step for every body of the robot. None when the motion
   /// has no bound somewhere: a leg does not reach, or is nearly stretched.
-  std::optional<std::vector<Placement>> Cover(const HalfStep& half_step, const Lipm& lipm) const;
+  std::optional<std::vector<Placement>> Cover(const HalfStep& half_step,
+                                              const MotionModel& model) const;
 
   /// Returns a volume that contains every point within `clearance` of a body of the robot at any
   /// time of the half-step, in the frame S of its support sole; and the mirror images of those of
   /// the mirrored half-step, so that one volume serves both sides of a robot that is not quite
   /// symmetric. None, as for Cover, when either motion has no bound. Source: planner/README.md,
   /// "Swept volumes".
-  std::optional<BoxTree> Bake(const HalfStep& half_step, const Lipm& lipm) const;
+  std::optional<BoxTree> Bake(const HalfStep& half_step, const MotionModel& model) const;
 
   const SweptVolumeOptions& options() const { return options_; }  ///< as given
 

@@ -12,7 +12,7 @@
 
 namespace halfstep {
 
-std::optional<SweptVolumes> BakeSweptVolumes(const RobotModel& robot, const Lipm& lipm,
+std::optional<SweptVolumes> BakeSweptVolumes(const RobotModel& robot, const MotionModel& model,
                                              const StepSet& set, const SweptVolumeOptions& options,
                                              const BakeHooks& hooks) {
   const SweptVolumeBaker baker(robot, options);
@@ -30,8 +30,8 @@ std::optional<SweptVolumes> BakeSweptVolumes(const RobotModel& robot, const Lipm
     if (hooks.recall) {
       if (auto known = hooks.recall(i)) return *std::move(known);
     }
-    ElementVolumes element{.down = baker.Bake(set.Down(i, Side::kLeft), lipm),
-                           .up = baker.Bake(set.Up(i, Side::kRight), lipm)};
+    ElementVolumes element{.down = baker.Bake(set.Down(i, Side::kLeft), model),
+                           .up = baker.Bake(set.Up(i, Side::kRight), model)};
     if (hooks.keep) hooks.keep(i, element);
     return element;
   };

@@ -30,7 +30,7 @@ struct BakeHooks {
 
 /// Bakes all elements of a set, or none when stopped. An exception of a hook ends the bake and is
 /// rethrown.
-std::optional<SweptVolumes> BakeSweptVolumes(const RobotModel& robot, const Lipm& lipm,
+std::optional<SweptVolumes> BakeSweptVolumes(const RobotModel& robot, const MotionModel& model,
                                              const StepSet& set, const SweptVolumeOptions& options,
                                              const BakeHooks& hooks = {});
 

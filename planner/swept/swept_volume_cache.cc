@@ -79,21 +79,20 @@ std::string DefaultCacheFolder() {
   return home != nullptr && *home == '/' ? std::string(home) + "/.cache/halfstep" : "";
 }
 
-std::string SweptVolumeProvenance(const RobotModel& robot, const Lipm& lipm, const StepSet& set,
-                                  const SweptVolumeOptions& options) {
+std::string SweptVolumeProvenance(const RobotModel& robot, const MotionModel& model,
+                                  const StepSet& set, const SweptVolumeOptions& options) {
   std::string placements;
   for (const Foothold& X_SF : set.placements) {
     X_SF.CheckLevel();
     Append(Eigen::Vector3d(X_SF.x, X_SF.y, X_SF.yaw), &placements);
   }
   std::string text = "swept volumes, format " + std::to_string(kFormat) + "\n";
-  const auto line = [&](const char* key, const std::string& value) {
+  const auto line = [&](std::string_view key, const std::string& value) {
     text += std::string(key) + " " + value + "\n";
   };
   line("generator", std::to_string(kGenerator));
   line("robot", Sha256(RobotText(robot)));
-  line("lipm_com_height", Exactly(lipm.com_height));
-  line("lipm_omega", Exactly(lipm.omega()));
+  for (const auto& [name, value] : model.numbers()) line(name, Exactly(value));
   line("duration", Exactly(set.prototype.duration));
   line("via_height", Exactly(set.prototype.via_height));
   line("via_lateral", Exactly(set.prototype.via_lateral));
@@ -146,13 +145,13 @@ void ReadVolumes(const std::string& provenance, const StepSet& set, double cell,
 
 }  // namespace
 
-CachedVolumes LoadOrBakeSweptVolumes(const RobotModel& robot, const Lipm& lipm, const StepSet& set,
-                                     const SweptVolumeOptions& options, const std::string& folder,
-                                     BakeHooks hooks) {
-  const std::string provenance = SweptVolumeProvenance(robot, lipm, set, options);
+CachedVolumes LoadOrBakeSweptVolumes(const RobotModel& robot, const MotionModel& model,
+                                     const StepSet& set, const SweptVolumeOptions& options,
+                                     const std::string& folder, BakeHooks hooks) {
+  const std::string provenance = SweptVolumeProvenance(robot, model, set, options);
   CachedVolumes result;
   if (folder.empty()) {
-    result.volumes = BakeSweptVolumes(robot, lipm, set, options, hooks);
+    result.volumes = BakeSweptVolumes(robot, model, set, options, hooks);
     result.baked = result.volumes.has_value();
     result.not_kept =
         "swept volumes are not kept: neither XDG_CACHE_HOME nor HOME is the path of a folder from "
@@ -190,7 +189,7 @@ CachedVolumes LoadOrBakeSweptVolumes(const RobotModel& robot, const Lipm& lipm, 
     try_to_write(PartPath(result.path, i), PartHeader(provenance, i),
                  VolumeBytes(element.down) + VolumeBytes(element.up));
   };
-  result.volumes = BakeSweptVolumes(robot, lipm, set, options, hooks);
+  result.volumes = BakeSweptVolumes(robot, model, set, options, hooks);
   if (!result.volumes) return result;
   result.baked = true;
   std::string body;

@@ -13,8 +13,8 @@ std::string DefaultCacheFolder();
 /// All that swept volumes depend on, as text, one thing a line: versions of format and generator,
 /// the robot's hash (of legs, heights and bodies, as they were loaded), half-step parameters,
 /// placements' hash, resolution, clearance. Numbers are written exactly.
-std::string SweptVolumeProvenance(const RobotModel& robot, const Lipm& lipm, const StepSet& set,
-                                  const SweptVolumeOptions& options);
+std::string SweptVolumeProvenance(const RobotModel& robot, const MotionModel& model,
+                                  const StepSet& set, const SweptVolumeOptions& options);
 
 /// The result of LoadOrBakeSweptVolumes.
 struct CachedVolumes {
@@ -30,9 +30,9 @@ struct CachedVolumes {
 /// killed continues where it was; several bakes at once share them. Files of another provenance,
 /// cut or damaged ones are refused and baked again. Hooks `recall` and `keep` shall be empty.
 /// Without a folder, or when it cannot be written, the volumes are returned but not cached.
-CachedVolumes LoadOrBakeSweptVolumes(const RobotModel& robot, const Lipm& lipm, const StepSet& set,
-                                     const SweptVolumeOptions& options, const std::string& folder,
-                                     BakeHooks hooks = {});
+CachedVolumes LoadOrBakeSweptVolumes(const RobotModel& robot, const MotionModel& model,
+                                     const StepSet& set, const SweptVolumeOptions& options,
+                                     const std::string& folder, BakeHooks hooks = {});
 
 /// Where one element's part file is, while the bake is under way.
 std::string PartPath(const std::string& cache_path, int element);

@@ -1,5 +1,7 @@
 #include "smoothing/margins/instant.h"
 
+#include "wpg/robot/gravity.h"
+
 namespace halfstep {
 
 Instant::Instant(const MarginPlace& place, const MarginLimits& limits, const SuperposedWalk& walk,
@@ -47,7 +49,7 @@ const RobotDynamics* Instant::dynamics() { return robot().masses.known() ? motio
 const RobotDynamics* Instant::motion() {
   if (!motion_) {
     if (!regular()) return nullptr;
-    motion_.emplace(robot(), jet_, posture(), walk_.lipm().gravity);
+    motion_.emplace(robot(), jet_, posture(), kGravity);
   }
   return &*motion_;
 }
@@ -59,23 +61,22 @@ WalkThirds MarginInterval::Thirds() const {
 
 const RobotDrift& MarginInterval::drift() const {
   if (!drift_) {
-    drift_.emplace(mid.robot(), motion, Thirds(), *mid.motion(), mid.walk().lipm().gravity);
+    drift_.emplace(mid.robot(), motion, Thirds(), *mid.motion(), kGravity);
   }
   return *drift_;
 }
 
 const ZmpDrift& MarginInterval::zmp_drift() const {
   if (!zmp_drift_) {
-    zmp_drift_ = ZmpDrift::Over(mid.robot(), motion, Thirds(), drift(), *mid.dynamics(),
-                                mid.walk().lipm().gravity);
+    zmp_drift_ = ZmpDrift::Over(mid.robot(), motion, Thirds(), drift(), *mid.dynamics(), kGravity);
   }
   return *zmp_drift_;
 }
 
 const ContactRate* MarginInterval::contact_rate() const {
   if (!contact_rate_) {
-    contact_rate_ = ContactRate::Over(mid.robot(), motion, Thirds(), drift(), *mid.dynamics(),
-                                      mid.walk().lipm().gravity);
+    contact_rate_ =
+        ContactRate::Over(mid.robot(), motion, Thirds(), drift(), *mid.dynamics(), kGravity);
   }
   return *contact_rate_ ? &**contact_rate_ : nullptr;
 }

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "wpg/motion/lipm.h"
+#include "wpg/robot/gravity.h"
 #include "wpg/robot/robot_measures.h"
 
 namespace halfstep {
@@ -15,7 +15,7 @@ constexpr double kOfWeight = 2.5e-9;  // of m·g·ℓ: 1e-6 N m for HRP-2
 
 Rounding::Rounding(const RobotModel& robot)
     : zmp(1e-9 * LegLengthOf(robot) / kLegLength),
-      torque(kOfWeight * robot.mass * Lipm{}.gravity * LegLengthOf(robot)),
+      torque(kOfWeight * robot.mass * kGravity * LegLengthOf(robot)),
       friction(1e-9),
       acceleration(1e-6 * kLegLength / LegLengthOf(robot)),
       length_(LegLengthOf(robot)) {}

@@ -9,6 +9,7 @@
 #include "wpg/motion/leg_torques.h"
 #include "wpg/motion/torque_drift.h"
 #include "wpg/nth.h"
+#include "wpg/robot/gravity.h"
 #include "wpg/robot/torque_limits.h"
 
 namespace halfstep {
@@ -116,7 +117,7 @@ class TorqueMargin final : public JointSizeFamily<TorqueMargin> {
     }
     const bool both = mid.step_in_air() < 0;
     const TorqueDrift drift(interval.motion, interval.drift(), *mid.dynamics(), *loads,
-                            both ? interval.zmp_drift().Most() : 0.0, mid.walk().lipm().gravity);
+                            both ? interval.zmp_drift().Most() : 0.0, kGravity);
     const ByLegs drifts = {drift.Of(Side::kLeft), drift.Of(Side::kRight)};
     ForEachJoint([&](size_t s, int j, const LegJoint& joint, int subject) {
       tightest->Add(Of(Limit(mid, joint) - std::abs(torques[s][j]), subject),

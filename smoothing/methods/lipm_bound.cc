@@ -8,8 +8,10 @@
 #include <vector>
 
 #include "smoothing/walk/superposed_walk.h"
+#include "wpg/check.h"
 #include "wpg/files/plain_locale.h"
 #include "wpg/geometry/support_polygon.h"
+#include "wpg/motion/lipm.h"
 #include "wpg/nth.h"
 
 namespace halfstep {
@@ -71,8 +73,7 @@ double Reach(const Pose2& sole, const Vector2d& size, double inside, const Vecto
 // The least time that both soles of `both` stand before the CoM, at rest at x, may be left to the
 // sole `flight.stance` alone for flight.least, whatever comes afterwards on `all` soles.
 double LeastShift(const Vector2d& x, const std::array<Pose2, 2>& both, const Flight& flight,
-                  const std::vector<Pose2>& all, const WalkProblem& problem) {
-  const double omega = problem.sequence().lipm.omega();
+                  const std::vector<Pose2>& all, const WalkProblem& problem, double omega) {
   const double demanded = problem.limits().demanded_of(MarginFamily::kZmp);
   const double inside = demanded == kNotDemanded ? 0.0 : demanded;
   const Vector2d& size = problem.robot().sole_size;
@@ -98,6 +99,9 @@ double LeastShift(const Vector2d& x, const std::array<Pose2, 2>& both, const Fli
 LipmBound LowerBound(const WalkProblem& problem) {
   const std::vector<Flight> flights = Flights(problem);
   const HalfStepSequence& sequence = problem.sequence();
+  const auto* lipm = dynamic_cast<const Lipm*>(sequence.model.get());
+  HALFSTEP_CHECK(lipm != nullptr, "the bound is one of a LIPM");
+  const double omega = lipm->omega();
   const SuperposedWalk walk(sequence, PlannedMotion(sequence));
   const auto com = [&walk](double t) -> Vector2d {
     return walk.At(walk.Locate(t)).value.segment<2>(kComX);
@@ -110,12 +114,15 @@ LipmBound LowerBound(const WalkProblem& problem) {
     bound.feet += flight.least;
   }
   const Flight& last = flights.back();
-  bound.first = LeastShift(com(0.0), start, flights.front(), all, problem);
-  bound.last = LeastShift(com(walk.duration()), {last.stance, last.to}, last, all, problem);
+  bound.first = LeastShift(com(0.0), start, flights.front(), all, problem, omega);
+  bound.last = LeastShift(com(walk.duration()), {last.stance, last.to}, last, all, problem, omega);
   return bound;
 }
 
 SmoothingResult TellLipmBound(const WalkProblem& problem, SmoothingMonitor& monitor) {
+  if (dynamic_cast<const Lipm*>(problem.sequence().model.get()) == nullptr) {
+    return monitor.Finish(opt::Ending::kNotRun, "the half-steps' model is no LIPM");
+  }
   if (!monitor.BeginFeasibly(problem, problem.Start())) return monitor.Refusal();
   const LipmBound bound = LowerBound(problem);
   monitor.result().lower_bound = bound.total();

@@ -18,10 +18,11 @@ struct LipmBound {
 /// which CoM and ZMP are those of a LIPM whose ZMP stays inside the soles that stand by what is
 /// demanded. The ZMP's form, timing, joints, reach and obstacles are free, so every certified walk
 /// of any method is one of these. Source: smoothing/README.md, "A lower bound".
+/// Precondition: the problem's model is a Lipm (std::logic_error).
 LipmBound LowerBound(const WalkProblem& problem);
 
 /// The bound as a method, which finds no walk: it keeps the start and says the bound. Ending:
-/// kNoImprovement, or kNotRun where the start is not feasible.
+/// kNoImprovement, or kNotRun where the start is not feasible or the model is no LIPM.
 SmoothingResult TellLipmBound(const WalkProblem& problem, SmoothingMonitor& monitor);
 
 }  // namespace halfstep

@@ -34,7 +34,7 @@ struct Part {
 HalfStepSequence PlannedPart(const HalfStepSequence& walk, int begin, int end) {
   HalfStepSequence part{.start = begin == 0 ? walk.start : StanceAfter(walk, begin - 1),
                         .half_steps = {},
-                        .lipm = walk.lipm};
+                        .model = walk.model};
   part.half_steps.assign(walk.half_steps.begin() + begin, walk.half_steps.begin() + end);
   return part;
 }

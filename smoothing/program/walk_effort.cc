@@ -24,9 +24,9 @@ struct Integrand {
   Vector2d acceleration, jerk;
   Vector3d left, right;
 
-  Integrand(const WalkJet& jet, double omega2)
-      : acceleration(omega2 * (jet.value.segment<2>(kComX) - jet.value.segment<2>(kZmpX))),
-        jerk(omega2 * (jet.first.segment<2>(kComX) - jet.first.segment<2>(kZmpX))),
+  Integrand(const WalkJet& jet, const MotionModel& model)
+      : acceleration(model.ComAcceleration(jet)),
+        jerk(model.ComJerk(jet)),
         left(jet.first.segment<3>(FootIndex(Side::kLeft))),
         right(jet.first.segment<3>(FootIndex(Side::kRight))) {}
 
@@ -41,9 +41,8 @@ struct Integrand {
 std::vector<double> KnotsOf(const SuperposedWalk& walk, int k, double stretch) {
   std::vector<double> knots = {0.0, stretch};
   for (int i = k; i >= std::max(0, k - 3); --i) {
-    const HalfStepProfiles& profiles = walk.profiles(i);
     const double start = walk.start_of(i) - walk.start_of(k);
-    for (const double tau : profiles.Knots()) {
+    for (const double tau : walk.tracks(i).Knots()) {
       if (start + tau > 0.0 && start + tau < stretch) knots.push_back(start + tau);
     }
   }
@@ -70,17 +69,12 @@ void ForEachNode(const SuperposedWalk& walk,
   }
 }
 
-double OmegaSquared(const SuperposedWalk& walk) {
-  return walk.lipm().omega() * walk.lipm().omega();
-}
-
 }  // namespace
 
 WalkEffort EffortOf(const SuperposedWalk& walk) {
-  const double omega2 = OmegaSquared(walk);
   WalkEffort effort;
   ForEachNode(walk, [&](const LocalTime& at, double weight) {
-    const Integrand f(walk.At(at), omega2);
+    const Integrand f(walk.At(at), walk.model());
     effort.com_acceleration += weight * f.acceleration.squaredNorm();
     effort.com_jerk += weight * f.jerk.squaredNorm();
     effort.foot_speed += weight * (f.left.squaredNorm() + f.right.squaredNorm());
@@ -90,22 +84,22 @@ WalkEffort EffortOf(const SuperposedWalk& walk) {
 
 double WeightedEffort(const SuperposedWalk& walk, const EffortWeights& weights,
                       ParameterGradient* gradient) {
-  const double omega2 = OmegaSquared(walk);
   double value = 0.0;
   std::vector<WalkSensitivity> sensitivities;
   ForEachNode(walk, [&](const LocalTime& at, double weight) {
-    const Integrand f(walk.At(at), omega2);
+    const Integrand f(walk.At(at), walk.model());
     value += weight * f.Dot(f, weights);
     if (gradient == nullptr) return;
     walk.Sensitivities(at, &sensitivities);
     for (const WalkSensitivity& s : sensitivities) {
-      gradient->emplace_back(s.parameter, 2.0 * weight * f.Dot(Integrand(s.jet, omega2), weights));
+      gradient->emplace_back(s.parameter,
+                             2.0 * weight * f.Dot(Integrand(s.jet, walk.model()), weights));
     }
   });
   if (gradient == nullptr) return value;
   // The own stretch of half-step k ends at T_k − Δ_k. The integrand is zero at the walk's end.
   for (int k = 0; k + 1 < walk.num_half_steps(); ++k) {
-    const Integrand f(walk.At(LocalTime{k, walk.start_of(k + 1) - walk.start_of(k)}), omega2);
+    const Integrand f(walk.At(LocalTime{k, walk.start_of(k + 1) - walk.start_of(k)}), walk.model());
     gradient->emplace_back(HomotopyParameter{Family::kDuration, k}, f.Dot(f, weights));
     gradient->emplace_back(HomotopyParameter{Family::kOverlap, k}, -f.Dot(f, weights));
   }

@@ -117,7 +117,7 @@ double WatchedInstants::StretchOf(const SuperposedWalk& walk, int half_step) {
 LocalTime WatchedInstants::At(const SuperposedWalk& walk, int k, const Instant& instant,
                               std::vector<std::pair<HomotopyParameter, double>>* moving) {
   moving->clear();
-  const double u = instant.fraction, T = walk.profiles(k).duration();
+  const double u = instant.fraction, T = walk.tracks(k).duration();
   if (instant.of == Instant::Of::kHalfStep) {
     moving->push_back({{Family::kDuration, k}, u});
     return {k, u * T};

@@ -25,7 +25,7 @@ bool WatchedInstants::Look(const SuperposedWalk& walk, const LocalTime& at, bool
                            Instant::Why why) {
   constexpr double kSame = 1e-3;  // of T
   if (!options_.range.contains(at.half_step)) return false;
-  const double T = walk.profiles(at.half_step).duration();
+  const double T = walk.tracks(at.half_step).duration();
   double fraction = at.tau / T;
   const Instant::Of of = of_branch ? Instant::Of::kBranch : Instant::Of::kHalfStep;
   if (of_branch) {

@@ -30,7 +30,7 @@ std::vector<double> KnotsInside(const SuperposedWalk& walk, const TimeWindow& wi
   for (int i = 0; i < walk.num_half_steps(); ++i) {
     const double t = walk.start_of(i);
     if (t > window.end || walk.end_of(i) < window.begin) continue;
-    const HalfStepProfiles& p = walk.profiles(i);
+    const HalfStepTracks& p = walk.tracks(i);
     const bool up = walk.half_step(i).kind == HalfStepKind::kUp;
     for (double knot : {t, t + p.t1(), t + p.t2(), walk.end_of(i),
                         t + (up ? p.horizontal_begin() : p.horizontal_end())}) {

@@ -73,7 +73,7 @@ std::vector<Margin> StretchProofs::Refusals(const SuperposedWalk& walk,
       continue;
     }
     std::optional<Margin> refusal;
-    const double T = walk.profiles(k).duration();
+    const double T = walk.tracks(k).duration();
     const bool last = k + 1 == walk.num_half_steps();
     const TimeWindow window{walk.start_of(k), last ? walk.duration() : walk.start_of(k + 1)};
     for (const double fraction : stretch.suspects) {

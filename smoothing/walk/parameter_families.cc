@@ -76,10 +76,12 @@ constexpr std::array<Row, kNumParameterFamilies> kRows = {{
     {.family = ParameterFamily::kHeightScale,
      .name = "height_scale",
      .of = kStep,
-     .part = ParameterPart::kHeight,
+     .part = ParameterPart::kState,
      .column = "height_scale",
      .rank = 1,
      .meaning = "scale of the foot's height in its step",
+     .number = &HalfStep::via_height,
+     .factor = true,
      .unmoved = 1.0,
      .values = &Values::height_scales,
      .least = 0.0,
@@ -112,7 +114,7 @@ constexpr std::array<Row, kNumParameterFamilies> kRows = {{
      .name = "support_point",
      .unit = "m",
      .of = kStep,
-     .part = ParameterPart::kSupportPoint,
+     .part = ParameterPart::kState,
      .column = "support_point_m",
      .rank = 2,
      .meaning = "where CoM and ZMP rest on one foot, from its centre towards the other foot",
@@ -130,7 +132,7 @@ constexpr std::array<Row, kNumParameterFamilies> kRows = {{
      .name = "via_lateral",
      .unit = "m",
      .of = kStep,
-     .part = ParameterPart::kViaAside,
+     .part = ParameterPart::kState,
      .column = "via_lateral_m",
      .rank = 3,
      .meaning = "of the via point from the support sole's centre",
@@ -193,7 +195,7 @@ constexpr std::array<Row, kNumParameterFamilies> kRows = {{
      .name = "via_along",
      .unit = "m",
      .of = kStep,
-     .part = ParameterPart::kViaAlong,
+     .part = ParameterPart::kState,
      .column = "via_along_m",
      .rank = 7,
      .meaning = "of the via point ahead of the support sole's centre",
@@ -300,19 +302,20 @@ constexpr std::array<Row, kNumParameterFamilies> kRows = {{
 
 // The number of a half-step that a row is has to be told where its part has one, and nowhere else.
 constexpr bool TellsItsNumber(const Row& row) {
+  const bool number = row.number != nullptr, shape = row.shape != nullptr;
+  const bool move = row.move != nullptr;
+  if (row.factor && row.part != ParameterPart::kState) return false;
   switch (row.part) {
     case ParameterPart::kBegin:
-    case ParameterPart::kHeight:
-      return row.number == nullptr && row.shape == nullptr && row.move == nullptr;
+      return !number && !shape && !move;
     case ParameterPart::kDuration:
-    case ParameterPart::kViaAside:
-    case ParameterPart::kViaAlong:
-      return row.number != nullptr && row.shape == nullptr && row.move == nullptr;
-    case ParameterPart::kSupportPoint:
+      return number && !shape && !move;
+    case ParameterPart::kState:
+      return number != shape && !move;
     case ParameterPart::kProfile:
-      return row.number == nullptr && row.shape != nullptr && row.move == nullptr;
+      return !number && shape && !move;
     case ParameterPart::kFootstep:
-      return row.number == nullptr && row.shape == nullptr && row.move != nullptr;
+      return !number && !shape && move;
   }
   return false;
 }

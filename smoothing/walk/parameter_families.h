@@ -18,16 +18,13 @@ struct HomotopyParameters;
 /// What the index of a parameter counts.
 enum class ParameterOf { kJunction, kStep, kHalfStep };
 
-/// What a parameter is of the half-steps that it belongs to.
+/// What a parameter is of the half-steps that it belongs to, and so of their tracks.
 enum class ParameterPart {
-  kBegin,         ///< when the next half-step begins
-  kDuration,      ///< T
-  kHeight,        ///< a factor of the via point's height
-  kSupportPoint,  ///< where CoM and ZMP are at the via point, along the support sole's y
-  kViaAside,      ///< where the swing foot is there, along the same
-  kViaAlong,      ///< and along the support sole's x
-  kProfile,       ///< a number of HalfStepShape that HalfStepProfiles::ByShape knows
-  kFootstep,      ///< where the swing foot lands
+  kBegin,     ///< when the next half-step begins
+  kDuration,  ///< T
+  kState,     ///< a number of the states in which they rest (SlopesOfStates): of from and to
+  kProfile,   ///< a number of the profiles (Profile::ByShape)
+  kFootstep,  ///< where the swing foot lands: of from and to
 };
 
 /// What a number is multiplied by for a robot that is not of HRP-2's size.
@@ -59,6 +56,7 @@ struct ParameterFamilyTraits {
   double HalfStep::*number = nullptr;      ///< of the half-step
   double HalfStepShape::*shape = nullptr;  ///< of its shape
   double Pose2::*move = nullptr;           ///< of a footstep's move
+  bool factor = false;                     ///< it multiplies that number, instead of being it
   double unmoved = 0.0;  ///< the planned value, where it is no number of a half-step
   /// Where values are kept that algorithms name; null: among HomotopyParameters::others.
   std::vector<double> HomotopyParameters::*values = nullptr;
@@ -79,6 +77,9 @@ struct ParameterFamilyTraits {
   /// Overlaps have their natural bounds besides.
   std::pair<double, double> (*range_of)(const ParameterFamilyTraits& row,
                                         const std::array<double, 2>& bounds, double planned);
+
+  /// The number of a half-step that it is, or multiplies; null: none.
+  double* number_of(HalfStep* half_step) const;
 
   std::string_view table() const;  ///< the CSV that holds the values, a row for each `of`
   int count(const HalfStepSequence& sequence) const;                  ///< how many a sequence has

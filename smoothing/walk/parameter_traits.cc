@@ -1,5 +1,7 @@
 #include "smoothing/walk/parameter_families.h"
 
+#include "wpg/nth.h"
+
 namespace halfstep {
 
 std::string_view ParameterFamilyTraits::table() const {
@@ -18,11 +20,15 @@ int ParameterFamilyTraits::count(const HalfStepSequence& sequence) const {
   return sequence.size();
 }
 
+double* ParameterFamilyTraits::number_of(HalfStep* half_step) const {
+  if (number != nullptr) return &(half_step->*number);
+  return shape != nullptr ? &(half_step->shape.*shape) : nullptr;
+}
+
 double ParameterFamilyTraits::planned(const HalfStepSequence& sequence, int index) const {
-  if (number == nullptr && shape == nullptr) return unmoved;
-  const size_t first = static_cast<size_t>(half_steps(index).first);
-  const HalfStep& half_step = sequence.half_steps[first].half_step;
-  return number != nullptr ? half_step.*number : half_step.shape.*shape;
+  HalfStep half_step = Nth(sequence.half_steps, half_steps(index).first).half_step;
+  const double* value = number_of(&half_step);
+  return value != nullptr && !factor ? *value : unmoved;
 }
 
 std::pair<int, int> ParameterFamilyTraits::half_steps(int index) const {

@@ -13,7 +13,7 @@ namespace {
 HalfStepSequence Following(const HalfStepSequence& sequence, const std::array<Foothold, 2>& feet,
                            const std::vector<Footstep>& footsteps) {
   const HalfStep& like = sequence.half_steps.front().half_step;
-  return MakeSequence(feet, footsteps, like.via_lateral, like.shape, sequence.lipm);
+  return MakeSequence(feet, footsteps, like.via_lateral, like.shape, sequence.model);
 }
 
 void Append(const HalfStepSequence& tail, HalfStepSequence* sequence) {

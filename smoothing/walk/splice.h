@@ -44,8 +44,8 @@ WalkPlan Delayed(const WalkPlan& walk, int last, double begin);
 /// no footsteps after an up half-step, or the first is not of the foot that was lifted.
 WalkPlan Changed(const WalkPlan& walk, int last, const std::vector<Footstep>& footsteps);
 
-/// The parameters, of every family, of everything that has begun when half-steps 0 … `last` have, at
-/// their values. With them fixed, a method finds successors.
+/// The parameters, of every family, of everything that has begun when half-steps 0 … `last` have,
+/// at their values. With them fixed, a method finds successors.
 std::vector<FixedParameter> FixedByBeginning(const WalkPlan& walk, int last);
 
 }  // namespace halfstep

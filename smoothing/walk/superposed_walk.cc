@@ -1,7 +1,6 @@
 #include "smoothing/walk/superposed_walk.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "smoothing/walk/footstep_families.h"
 #include "wpg/check.h"
@@ -9,33 +8,29 @@
 namespace halfstep {
 SuperposedWalk::SuperposedWalk(const HalfStepSequence& sequence,
                                const HomotopyParameters& parameters)
-    : parameters_(parameters), lipm_(sequence.lipm) {
+    : parameters_(parameters), model_(sequence.model) {
   CheckParameters(sequence, parameters);
   const std::vector<PlacedHalfStep> placed = WithFootsteps(sequence, parameters).half_steps;
   const std::vector<HalfStepFootsteps> footsteps = FootstepsOf(sequence);
   pieces_.reserve(placed.size());
   for (size_t i = 0; i < placed.size(); ++i) {
     HalfStep half_step = placed[i].half_step;
-    const double planned_height = half_step.via_height;
-    half_step.via_height *= parameters.height_scales[i / 2];
     for (const ParameterFamily family : AllParameterFamilies()) {
       const ParameterFamilyTraits& traits = Traits(family);
-      if (traits.number == nullptr && traits.shape == nullptr) continue;
-      double& number =
-          traits.number != nullptr ? half_step.*traits.number : half_step.shape.*traits.shape;
-      number = HomotopyParameter{family, traits.index_at(static_cast<int>(i))}.in(parameters);
+      double* number = traits.number_of(&half_step);
+      if (number == nullptr) continue;
+      const double value =
+          HomotopyParameter{family, traits.index_at(static_cast<int>(i))}.in(parameters);
+      *number = traits.factor ? *number * value : value;
     }
     const Foothold& X_WS = placed[i].X_WS;
     X_WS.CheckLevel();
     half_step.X_SF.CheckLevel();
-    const WalkState from_W = Transformed(X_WS, half_step.Start());
     pieces_.push_back({.half_step = half_step,
+                       .planned = placed[i].half_step,
                        .X_WS = X_WS,
                        .on = footsteps[i],
-                       .planned_height = planned_height,
-                       .profiles = {half_step.kind, half_step.shape, half_step.duration, lipm_},
-                       .from_W = from_W,
-                       .delta_W = Transformed(X_WS, half_step.End()) - from_W});
+                       .tracks = {half_step, *model_, X_WS}});
   }
   UpdateStarts(1);
 }
@@ -43,7 +38,7 @@ SuperposedWalk::SuperposedWalk(const HalfStepSequence& sequence,
 void SuperposedWalk::UpdateStarts(int from) {
   for (size_t i = static_cast<size_t>(from); i < pieces_.size(); ++i) {
     pieces_[i].start =
-        pieces_[i - 1].start + (pieces_[i - 1].profiles.duration() - parameters_.overlaps[i - 1]);
+        pieces_[i - 1].start + (pieces_[i - 1].tracks.duration() - parameters_.overlaps[i - 1]);
   }
 }
 
@@ -61,7 +56,7 @@ void SuperposedWalk::SetOverlap(int junction, double overlap) {
 SuperposedWalk SuperposedWalk::StopBranch(int last) const {
   HALFSTEP_CHECK(last >= 0 && last < num_half_steps(), "half-step " << last);
   SuperposedWalk branch;
-  branch.lipm_ = lipm_;
+  branch.model_ = model_;
   branch.pieces_.assign(pieces_.begin(), pieces_.begin() + last + 1);
   for (const ParameterFamily family : AllParameterFamilies()) {
     const ParameterFamilyTraits& traits = Traits(family);
@@ -81,7 +76,7 @@ LocalTime SuperposedWalk::Locate(double t) const {
 
 int SuperposedWalk::FirstActive(const LocalTime& at) const {
   int i = at.half_step;
-  while (i > 0 && LocalTo(i - 1, at) < piece(i - 1).profiles.duration()) --i;
+  while (i > 0 && LocalTo(i - 1, at) < piece(i - 1).tracks.duration()) --i;
   return i;
 }
 
@@ -94,17 +89,8 @@ int SuperposedWalk::LastActive(const LocalTime& at) const {
 WalkJet SuperposedWalk::At(const LocalTime& at) const {
   const int first = FirstActive(at), last = LastActive(at);
   WalkJet jet;
-  jet.value = piece(first).from_W;
-  for (int i = first; i <= last; ++i) {
-    const HalfStepJet profiles = piece(i).profiles.At(LocalTo(i, at));
-    const WalkState& delta = piece(i).delta_W;
-    for (int q = 0; q < kNumQuantities; ++q) {
-      const ProfileJet& p = profiles.of(q);
-      jet.value[q] += p.value * delta[q];
-      jet.first[q] += p.first * delta[q];
-      jet.second[q] += p.second * delta[q];
-    }
-  }
+  jet.value = piece(first).tracks.start();
+  for (int i = first; i <= last; ++i) piece(i).tracks.AddMotion(LocalTo(i, at), &jet);
   return jet;
 }
 
@@ -113,10 +99,7 @@ WalkState SuperposedWalk::SecondBounds(double begin, double end) const {
   const int first = FirstActive(Locate(begin)), last = LastActive(Locate(end));
   for (int i = first; i <= last; ++i) {
     const Piece& p = piece(i);
-    const HalfStepJet second = p.profiles.SecondBounds(begin - p.start, end - p.start);
-    for (int q = 0; q < kNumQuantities; ++q) {
-      bounds[q] += second.of(q).second * std::abs(p.delta_W[q]);
-    }
+    p.tracks.AddSecondBounds(begin - p.start, end - p.start, &bounds);
   }
   return bounds;
 }
@@ -126,19 +109,7 @@ WalkThirds SuperposedWalk::ThirdRanges(double begin, double end) const {
   const int first = FirstActive(Locate(begin)), last = LastActive(Locate(end));
   for (int i = first; i <= last; ++i) {
     const Piece& p = piece(i);
-    const HalfStepThirds profiles = p.profiles.ThirdRanges(begin - p.start, end - p.start);
-    const auto add = [&](int q, const Range& profile) {
-      thirds.center[q] += profile.center * p.delta_W[q];
-      thirds.radius[q] += profile.radius * std::abs(p.delta_W[q]);
-    };
-    add(kComX, profiles.com);
-    add(kComY, profiles.com);
-    add(kWaistYaw, profiles.yaw);
-    for (const Side side : {Side::kLeft, Side::kRight}) {
-      const int foot = FootIndex(side);
-      for (const int q : {foot, foot + 1, foot + 3}) add(q, profiles.foot);
-      add(foot + 2, profiles.height);
-    }
+    p.tracks.AddThirdRanges(begin - p.start, end - p.start, &thirds);
   }
   return thirds;
 }
@@ -147,9 +118,9 @@ int SuperposedWalk::StepInAir(const LocalTime& at) const {
   const int first = FirstActive(at) / 2, last = LastActive(at) / 2;
   for (int step = first; step <= last; ++step) {
     const int up = 2 * step;
-    if (LocalTo(up, at) < piece(up).profiles.t2()) continue;
+    if (LocalTo(up, at) < piece(up).tracks.t2()) continue;
     const Piece* down = DownOf(step);
-    if (down == nullptr || LocalTo(up + 1, at) <= down->profiles.t1()) return step;
+    if (down == nullptr || LocalTo(up + 1, at) <= down->tracks.t1()) return step;
   }
   return -1;
 }
@@ -157,12 +128,12 @@ int SuperposedWalk::StepInAir(const LocalTime& at) const {
 bool SuperposedWalk::MovesHorizontally(int step, const LocalTime& at) const {
   const int up = 2 * step;
   const double in_up = LocalTo(up, at);
-  const bool begun = in_up >= piece(up).profiles.horizontal_begin();
-  const bool rising = in_up <= piece(up).profiles.duration();
+  const bool begun = in_up >= piece(up).tracks.horizontal_begin();
+  const bool rising = in_up <= piece(up).tracks.duration();
   const Piece* down = DownOf(step);
   if (down == nullptr) return begun && rising;
   const double in_down = LocalTo(up + 1, at);
-  return (begun || in_down >= 0.0) && (in_down <= down->profiles.horizontal_end() || rising);
+  return (begun || in_down >= 0.0) && (in_down <= down->tracks.horizontal_end() || rising);
 }
 
 double SuperposedWalk::LeastHeight(int step, double begin, double end) const {
@@ -170,14 +141,14 @@ double SuperposedWalk::LeastHeight(int step, double begin, double end) const {
   const Piece& up = piece(2 * step);
   const Piece* down = DownOf(step);
   // Fractions of the rise that is done, and of the sinking that is still to come.
-  const double lift_off = up.profiles.lift_begin(), rise = up.profiles.lift_end() - lift_off;
+  const double lift_off = up.tracks.lift_begin(), rise = up.tracks.lift_end() - lift_off;
   const auto risen = [&](double t) {
     return std::clamp((t - up.start - lift_off) / rise, 0.0, 1.0);
   };
   const auto left = [&](double t) {
     if (down == nullptr) return 1.0;
-    const double sinks = down->start + down->profiles.lift_begin();
-    const double sinking = down->profiles.lift_end() - down->profiles.lift_begin();
+    const double sinks = down->start + down->tracks.lift_begin();
+    const double sinking = down->tracks.lift_end() - down->tracks.lift_begin();
     return 1.0 - std::clamp((t - sinks) / sinking, 0.0, 1.0);
   };
   const double height = up.half_step.via_height;

@@ -7,6 +7,7 @@
 #include "wpg/geometry/foothold.h"
 #include "wpg/geometry/support_polygon.h"
 #include "wpg/motion/half_step_sequence.h"
+#include "wpg/motion/half_step_tracks.h"
 #include "wpg/motion/moved_footsteps.h"
 #include "wpg/motion/walk_state.h"
 #include "wpg/motion/walk_thirds.h"
@@ -32,9 +33,9 @@ struct WalkSensitivity {
 ///
 ///     f(t) = f_0(0) + Σ_i [ f_i(clamp(t − t_i, 0, T_i)) − f_i(0) ].
 ///
-/// For all t: the walk is C², its CoM and ZMP satisfy the LIPM, and Δ = 0 is the concatenation of
-/// the isolated half-steps. Starts and ends of half-steps are in order, whatever the overlaps.
-/// Source: [Perrin2011] §IV; smoothing/README.md, "The homotopy".
+/// For all t: the walk is C², its CoM and ZMP are related as the model has it, and Δ = 0 is the
+/// concatenation of the isolated half-steps. Starts and ends of half-steps are in order, whatever
+/// the overlaps. Source: [Perrin2011] §IV; smoothing/README.md, "The homotopy".
 class SuperposedWalk {
  public:
   /// Throws std::logic_error when the parameters are not in bounds (CheckParameters), or when a
@@ -43,17 +44,17 @@ class SuperposedWalk {
 
   int num_half_steps() const { return static_cast<int>(pieces_.size()); }  ///< n
   /// D = Σ T_i − Σ Δ_i [s].
-  double duration() const { return pieces_.back().start + pieces_.back().profiles.duration(); }
+  double duration() const { return pieces_.back().start + pieces_.back().tracks.duration(); }
   double start_of(int half_step) const { return piece(half_step).start; }  ///< t_i [s]
   double end_of(int half_step) const {                                     ///< t_i + T_i [s]
-    return piece(half_step).start + piece(half_step).profiles.duration();
+    return piece(half_step).start + piece(half_step).tracks.duration();
   }
   const HomotopyParameters& parameters() const { return parameters_; }  ///< as given
   /// Half-step i, with its own duration, heights, form and footsteps.
   const HalfStep& half_step(int i) const { return piece(i).half_step; }
-  const HalfStepProfiles& profiles(int i) const { return piece(i).profiles; }  ///< its profiles
+  const HalfStepTracks& tracks(int i) const { return piece(i).tracks; }  ///< its tracks, in W
   const Foothold& X_WS(int i) const { return piece(i).X_WS; }  ///< place of its support sole, in W
-  const Lipm& lipm() const { return lipm_; }                   ///< the same for all half-steps
+  const MotionModel& model() const { return *model_; }         ///< the same for all half-steps
 
   /// The latest half-step that has begun at t [s] (clamped to the walk), and the time since.
   LocalTime Locate(double t) const;
@@ -114,13 +115,11 @@ class SuperposedWalk {
 
  private:
   struct Piece {
-    HalfStep half_step;
+    HalfStep half_step, planned;  // as the parameters have it, and before
     Foothold X_WS;
     HalfStepFootsteps on;
-    double planned_height = 0.0;  // before scaling [m]
-    HalfStepProfiles profiles;
-    double start = 0.0;         // t_i
-    WalkState from_W, delta_W;  // f_i(0) and f_i(T_i) − f_i(0)
+    HalfStepTracks tracks;  // in W
+    double start = 0.0;     // t_i
   };
   SuperposedWalk() = default;
   // The down half-step of a step; null in a stop branch that ends before it.
@@ -138,7 +137,7 @@ class SuperposedWalk {
 
   std::vector<Piece> pieces_;
   HomotopyParameters parameters_;
-  Lipm lipm_;
+  std::shared_ptr<const MotionModel> model_;
 };
 
 /// What supports the robot at an instant where its quantities are `x`, in W: one sole, or the hull

@@ -1,112 +1,101 @@
 #include <algorithm>
 
 #include "smoothing/walk/superposed_walk.h"
+#include "wpg/motion/rest_state_slopes.h"
 #include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
 
-// Derivative of a half-step's contribution delta·(π, π̇, π̈) when its local time moves by dtau and
-// its duration by dT.
-void AddProfileDerivative(const HalfStepJet& profiles, const WalkState& delta, double dtau,
-                          double dT, WalkJet* jet) {
-  for (int q = 0; q < kNumQuantities; ++q) {
-    const ProfileJet& p = profiles.of(q);
-    jet->value[q] += (p.first * dtau + p.value_T * dT) * delta[q];
-    jet->first[q] += (p.second * dtau + p.first_T * dT) * delta[q];
-    jet->second[q] += (p.third * dtau + p.second_T * dT) * delta[q];
+// The derivatives along the parameters that are wanted, each summed up over half-steps.
+class Sums {
+ public:
+  Sums(const ParameterFilter& wanted, std::vector<WalkSensitivity>* out)
+      : wanted_(wanted), out_(*out) {
+    out_.clear();
   }
-}
+  bool Wants(const HomotopyParameter& parameter) const { return !wanted_ || wanted_(parameter); }
+  // That along a parameter that is wanted; valid until the next is asked for.
+  WalkJet& Of(const HomotopyParameter& parameter) {
+    for (WalkSensitivity& s : out_) {
+      if (s.parameter == parameter) return s.jet;
+    }
+    out_.push_back({parameter, {}});
+    return out_.back().jet;
+  }
 
-// Derivative of quantity q of a half-step's contribution when q moves by `moved` in its state at
-// the via point. That is where an up half-step ends and a down half-step begins; `first`: the walk
-// is superposed from this half-step's start.
-void AddViaDerivative(const HalfStepJet& profiles, HalfStepKind kind, bool first, double moved,
-                      int q, WalkJet* jet) {
-  const bool down = kind == HalfStepKind::kDown;
-  const ProfileJet& p = profiles.of(q);
-  const double change = down ? -moved : moved;
-  jet->value[q] += change * p.value + (down && first ? moved : 0.0);
-  jet->first[q] += change * p.first;
-  jet->second[q] += change * p.second;
-}
-
-// How a sole's place moves along a parameter, in W: (x, y, yaw).
-using SoleMove = Eigen::Vector3d;
-
-// A point that stands still on a sole at X_WF.
-Eigen::Vector2d Moved(const SoleMove& move, const Eigen::Vector2d& from_sole_W) {
-  return move.head<2>() + move.z() * Eigen::Vector2d(-from_sole_W.y(), from_sole_W.x());
-}
-
-void MoveFoot(Side side, const Eigen::Vector2d& by, double yaw, WalkState* x) {
-  x->segment<2>(FootIndex(side)) = by;
-  (*x)[FootIndex(side) + 3] = yaw;
-}
-
-// Of the state with both feet on the floor, in W.
-WalkState OnFloorMoved(const HalfStep& h, const SoleMove& support, const SoleMove& swing) {
-  const SoleMove middle = 0.5 * (support + swing);
-  WalkState x = WalkState::Zero();
-  x.segment<2>(kComX) = x.segment<2>(kZmpX) = middle.head<2>();
-  x[kWaistYaw] = middle.z();
-  MoveFoot(h.support, support.head<2>(), support.z(), &x);
-  MoveFoot(h.swing(), swing.head<2>(), swing.z(), &x);
-  return x;
-}
-
-// Of the state at the via point, which goes with the support sole.
-WalkState AtViaMoved(const HalfStep& h, const Eigen::Matrix2d& R_WS, const SoleMove& support) {
-  WalkState x = WalkState::Zero();
-  x.segment<2>(kComX) = x.segment<2>(kZmpX) = Moved(support, R_WS * h.support_point());
-  x[kWaistYaw] = support.z();
-  MoveFoot(h.support, support.head<2>(), support.z(), &x);
-  MoveFoot(h.swing(), Moved(support, R_WS * h.via().position()), support.z(), &x);
-  return x;
-}
-
-// What a half-step under way, its support sole at X_WS, has to do with the moves of footsteps.
-struct OnFootsteps {
-  const HalfStep& half_step;
-  const Foothold& X_WS;
-  const HalfStepFootsteps& on;
-  const HomotopyParameters& parameters;
-  bool first;  // whether the walk is superposed from its start
+ private:
+  const ParameterFilter& wanted_;
+  std::vector<WalkSensitivity>& out_;
 };
 
-// Adds its derivatives along these moves; jet_of(parameter) is where a derivative is summed up.
-template <typename JetOf>
-void AddFootstepDerivatives(const OnFootsteps& p, const HalfStepJet& profiles,
-                            const ParameterFilter& wanted, const JetOf& jet_of) {
-  using Family = ParameterFamily;
-  const HalfStep& h = p.half_step;
-  const Eigen::Matrix2d R_WS = p.X_WS.Planar().rotation();
-  const bool up = h.kind == HalfStepKind::kUp;
-  for (const auto& [step, is_support] : {std::pair{p.on.support, true}, {p.on.swing, false}}) {
-    if (step < 0) continue;
-    const double turned = Nth(p.parameters.footstep_yaws, step);
-    const double yaw = p.X_WS.yaw + (is_support ? 0.0 : h.X_SF.yaw);
-    const Eigen::Matrix2d planned = Eigen::Rotation2Dd(yaw - turned).toRotationMatrix();
-    const std::array<std::pair<Family, SoleMove>, 3> moves = {
-        {{Family::kFootstepX, {planned(0, 0), planned(1, 0), 0.0}},
-         {Family::kFootstepY, {planned(0, 1), planned(1, 1), 0.0}},
-         {Family::kFootstepYaw, SoleMove::UnitZ()}}};
-    for (const auto& [family, move] : moves) {
-      if (wanted && !wanted({family, step})) continue;
-      const SoleMove support = is_support ? move : SoleMove::Zero();
-      const WalkState floor = OnFloorMoved(h, support, is_support ? SoleMove::Zero() : move);
-      const WalkState via = AtViaMoved(h, R_WS, support);
-      const WalkState &from = up ? floor : via, &to = up ? via : floor;
-      WalkJet& jet = jet_of({family, step});
-      if (p.first) jet.value += from;
-      for (int q = 0; q < kNumQuantities; ++q) {
-        const ProfileJet& profile = profiles.of(q);
-        jet.value[q] += profile.value * (to[q] - from[q]);
-        jet.first[q] += profile.first * (to[q] - from[q]);
-        jet.second[q] += profile.second * (to[q] - from[q]);
-      }
+// A half-step under way. Each function adds a derivative of its contribution.
+class UnderWay {
+ public:
+  // `first`: the walk is superposed from this half-step's start.
+  UnderWay(const HalfStepTracks& tracks, double tau, bool first)
+      : tracks_(tracks), tau_(tau), first_(first), profiles_(tracks.Profiles(tau)) {}
+
+  // Along what moves its local time by dtau and its duration by dT.
+  void AddOfTime(double dtau, double dT, WalkJet* jet) const {
+    for (const Track& track : tracks_.tracks()) {
+      const int q = track.quantity;
+      const ProfileJet& p = Nth(profiles_, track.profile);
+      jet->value[q] += (p.first * dtau + p.value_T * dT) * track.change;
+      jet->first[q] += (p.second * dtau + p.first_T * dT) * track.change;
+      jet->second[q] += (p.third * dtau + p.second_T * dT) * track.change;
     }
   }
+  // Along what changes the states in which it begins and ends, in W.
+  void AddOfStates(const WalkState& from, const WalkState& to, WalkJet* jet) const {
+    if (first_) jet->value += from;
+    for (const Track& track : tracks_.tracks()) {
+      const int q = track.quantity;
+      if (to[q] != from[q]) Add(q, Nth(profiles_, track.profile), to[q] - from[q], jet);
+    }
+  }
+  // Along a number of its shape that changes the profiles.
+  void AddOfProfiles(double HalfStepShape::*number, WalkJet* jet) const {
+    const ProfileJets by = tracks_.ProfilesByShape(number, tau_);
+    for (const Track& track : tracks_.tracks()) {
+      Add(track.quantity, Nth(by, track.profile), track.change, jet);
+    }
+  }
+
+ private:
+  static void Add(int q, const ProfileJet& p, double change, WalkJet* jet) {
+    jet->value[q] += p.value * change;
+    jet->first[q] += p.first * change;
+    jet->second[q] += p.second * change;
+  }
+
+  const HalfStepTracks& tracks_;
+  double tau_;
+  bool first_;
+  ProfileJets profiles_;
+};
+
+void AddOfStates(const HalfStep& half_step, const RestStateSlopes& slopes,
+                 const UnderWay& under_way, WalkJet* jet) {
+  const bool up = half_step.kind == HalfStepKind::kUp;
+  under_way.AddOfStates(up ? slopes.floor : slopes.via, up ? slopes.via : slopes.floor, jet);
+}
+
+// The states' slopes, in W, along a parameter that is a number of them, or multiplies one.
+RestStateSlopes SlopesAlong(const ParameterFamilyTraits& traits, const HalfStep& half_step,
+                            HalfStep planned, const Eigen::Matrix2d& R_WS) {
+  RestStateSlopes slopes = traits.number != nullptr ? SlopesOfStates(half_step, traits.number)
+                                                    : SlopesOfStates(half_step, traits.shape);
+  const double scale = traits.factor ? *traits.number_of(&planned) : 1.0;
+  for (WalkState* slope : {&slopes.floor, &slopes.via}) *slope = scale * Turned(R_WS, *slope);
+  return slopes;
+}
+
+// How a sole that would stand with rotation `planned` moves along a number of its footstep's move.
+SoleMove MoveOfSole(double Pose2::*number, const Eigen::Matrix2d& planned) {
+  if (number == &Pose2::yaw) return SoleMove::UnitZ();
+  const Eigen::Index axis = number == &Pose2::x ? 0 : 1;
+  return {planned(0, axis), planned(1, axis), 0.0};
 }
 
 }  // namespace
@@ -114,82 +103,52 @@ void AddFootstepDerivatives(const OnFootsteps& p, const HalfStepJet& profiles,
 void SuperposedWalk::Sensitivities(const LocalTime& at, std::vector<WalkSensitivity>* out,
                                    const ParameterFilter& wanted) const {
   using Family = HomotopyParameter::Family;
-  out->clear();
-  const auto jet_of = [out](HomotopyParameter parameter) -> WalkJet& {
-    for (WalkSensitivity& s : *out) {
-      if (s.parameter == parameter) return s.jet;
-    }
-    out->push_back({parameter, {}});
-    return out->back().jet;
-  };
+  Sums sums(wanted, out);
   const int k = at.half_step;
   const int first = FirstActive(at), last = LastActive(at);
   for (int i = first; i <= last; ++i) {
     const Piece& p = piece(i);
-    const HalfStepJet profiles = p.profiles.At(LocalTo(i, at));
+    const UnderWay under_way(p.tracks, LocalTo(i, at), i == first);
+    const auto add_of_time = [&](const HomotopyParameter& parameter, double dtau, double dT) {
+      if (sums.Wants(parameter)) under_way.AddOfTime(dtau, dT, &sums.Of(parameter));
+    };
     // τ_i = τ + t_k − t_i, and every T_m − Δ_m between i and k moves it.
     const double sign = i < k ? 1.0 : -1.0;
     for (int m = std::min(i, k); m < std::max(i, k); ++m) {
-      AddProfileDerivative(profiles, p.delta_W, -sign, 0.0, &jet_of({Family::kOverlap, m}));
-      AddProfileDerivative(profiles, p.delta_W, sign, 0.0, &jet_of({Family::kDuration, m}));
+      add_of_time({Family::kOverlap, m}, -sign, 0.0);
+      add_of_time({Family::kDuration, m}, sign, 0.0);
     }
-    AddProfileDerivative(profiles, p.delta_W, 0.0, 1.0, &jet_of({Family::kDuration, i}));
+    add_of_time({Family::kDuration, i}, 0.0, 1.0);
 
-    const HalfStep& h = p.half_step;
-    const auto is_wanted = [&wanted](const HomotopyParameter& parameter) {
-      return !wanted || wanted(parameter);
-    };
-    // `parameter` moves quantities q and q + 1 of the state at the via point along `by`.
-    const auto move_via = [&](const HomotopyParameter& parameter, const Eigen::Vector2d& by,
-                              int q) {
-      if (!is_wanted(parameter)) return;
-      WalkJet& jet = jet_of(parameter);
-      AddViaDerivative(profiles, h.kind, i == first, by.x(), q, &jet);
-      AddViaDerivative(profiles, h.kind, i == first, by.y(), q + 1, &jet);
-    };
     const Eigen::Matrix2d R_WS = p.X_WS.Planar().rotation();
-    const Eigen::Vector2d aside = R_WS.col(1) * Sign(h.swing());
     for (const Family family : AllParameterFamilies()) {
       const ParameterFamilyTraits& traits = Traits(family);
       const HomotopyParameter parameter{family, traits.index_at(i)};
-      switch (traits.part) {
-        case ParameterPart::kHeight:
-          if (!is_wanted(parameter)) break;
-          AddViaDerivative(profiles, h.kind, i == first, p.planned_height, FootIndex(h.swing()) + 2,
-                           &jet_of(parameter));
-          break;
-        case ParameterPart::kSupportPoint:
-          move_via(parameter, aside, kComX);
-          move_via(parameter, aside, kZmpX);
-          break;
-        case ParameterPart::kViaAside:
-          move_via(parameter, aside, FootIndex(h.swing()));
-          break;
-        case ParameterPart::kViaAlong:
-          move_via(parameter, R_WS.col(0), FootIndex(h.swing()));
-          break;
-        case ParameterPart::kBegin:
-        case ParameterPart::kDuration:
-        case ParameterPart::kProfile:
-        case ParameterPart::kFootstep:
-          break;
-      }
+      if (traits.part != ParameterPart::kState || !sums.Wants(parameter)) continue;
+      AddOfStates(p.half_step, SlopesAlong(traits, p.half_step, p.planned, R_WS), under_way,
+                  &sums.Of(parameter));
     }
     for (const Family family : AllParameterFamilies()) {
       const ParameterFamilyTraits& traits = Traits(family);
-      if (traits.part != ParameterPart::kProfile || !is_wanted({family, i})) continue;
-      const HalfStepJet by = p.profiles.ByShape(traits.shape, LocalTo(i, at));
-      WalkJet& jet = jet_of({family, i});
-      for (int q = 0; q < kNumQuantities; ++q) {
-        jet.value[q] += by.of(q).value * p.delta_W[q];
-        jet.first[q] += by.of(q).first * p.delta_W[q];
-        jet.second[q] += by.of(q).second * p.delta_W[q];
+      if (traits.part != ParameterPart::kProfile || !sums.Wants({family, i})) continue;
+      under_way.AddOfProfiles(traits.shape, &sums.Of({family, i}));
+    }
+    const double swing_yaw = p.X_WS.yaw + p.half_step.X_SF.yaw;
+    for (const auto& [step, yaw] : {std::pair{p.on.support, p.X_WS.yaw}, {p.on.swing, swing_yaw}}) {
+      if (step < 0) continue;
+      const double turned = Nth(parameters_.footstep_yaws, step);
+      const Eigen::Matrix2d planned = Eigen::Rotation2Dd(yaw - turned).toRotationMatrix();
+      for (const Family family : AllParameterFamilies()) {
+        const ParameterFamilyTraits& traits = Traits(family);
+        if (traits.part != ParameterPart::kFootstep || !sums.Wants({family, step})) continue;
+        const SoleMove move = MoveOfSole(traits.move, planned), none = SoleMove::Zero();
+        const bool is_support = step == p.on.support;
+        AddOfStates(
+            p.half_step,
+            SlopesOfStates(p.half_step, p.X_WS, is_support ? move : none, is_support ? none : move),
+            under_way, &sums.Of({family, step}));
       }
     }
-    AddFootstepDerivatives({h, p.X_WS, p.on, parameters_, i == first}, profiles, wanted, jet_of);
-  }
-  if (wanted) {
-    std::erase_if(*out, [&](const WalkSensitivity& s) { return !wanted(s.parameter); });
   }
 }
 

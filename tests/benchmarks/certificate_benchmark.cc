@@ -12,6 +12,7 @@
 #include "smoothing/proof/sampled_feasibility.h"
 #include "tests/smoothing/certificate_draws.h"
 #include "tests/smoothing/smoothed.h"
+#include "wpg/motion/lipm.h"
 
 namespace halfstep {
 namespace {
@@ -36,7 +37,7 @@ struct SmoothedWalk {
       footsteps.push_back({.side = side, .X_WF = foot, .via_height = 0.15, .duration = 2.0});
     }
     sequence = MakeSequence(start, footsteps, 0.24, {.shift = 0.05, .foot_delay = 0.1},
-                            {.com_height = robot.com_height});
+                            std::make_shared<Lipm>(robot.com_height));
     const SuperposedWalk planned(sequence, PlannedMotion(sequence));
     WalkDraw draw(3);
     Scene scene;

@@ -81,7 +81,7 @@ double DynamicProgram::Longest(int k, const State& state, double longest) {
   const int from = std::max(0, (k - 3) / 2 * 2), to = k % 2 == 0 ? k + 1 : k;
   HalfStepSequence part;
   part.start = sequence_.start;
-  part.lipm = sequence_.lipm;
+  part.model = sequence_.model;
   part.half_steps.assign(sequence_.half_steps.begin() + from,
                          sequence_.half_steps.begin() + to + 1);
   HomotopyParameters parameters = PlannedMotion(part);

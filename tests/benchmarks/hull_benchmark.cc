@@ -13,6 +13,7 @@
 #include "smoothing/proof/missed_demands.h"
 #include "wpg/geometry/simplified_hull.h"
 #include "wpg/motion/half_step_sequence.h"
+#include "wpg/motion/lipm.h"
 #include "wpg/robot/robot_model.h"
 
 namespace halfstep {
@@ -96,7 +97,7 @@ void Bake(benchmark::State& state) {
   HalfStep half_step;
   half_step.X_SF = Foothold::Level({0.15, -0.21, 0.2});
   for (auto _ : state) {
-    benchmark::DoNotOptimize(baker.Bake(half_step, {.com_height = robot.com_height}));
+    benchmark::DoNotOptimize(baker.Bake(half_step, Lipm(robot.com_height)));
   }
 }
 BENCHMARK(Bake)
@@ -113,7 +114,7 @@ void InfeasibleStart(benchmark::State& state) {
                      .X_WF = Foothold::Level({0.2, y, 0}),
                      .via_height = 0.25,
                      .duration = 2}},
-                   0.24, {}, {.com_height = robot.com_height});
+                   0.24, {}, std::make_shared<Lipm>(robot.com_height));
   const SuperposedWalk walk(sequence, PlannedMotion(sequence));
   const MarginEvaluator evaluator(robot, {}, {});
   size_t missed = 0;

@@ -19,6 +19,7 @@
 #include "planner/search/plan_shortcut.h"
 #include "planner/swept/swept_volume_query.h"
 #include "tests/planner/flat_world.h"
+#include "wpg/motion/lipm.h"
 
 namespace {
 
@@ -165,7 +166,7 @@ void StudySwept(const Scenario& scenario, const std::string& planner, const Swep
     const HalfStep prototype = PrototypeOf(config);
     row.certified +=
         CertifyPlan(test, MakeSequence(problem.start, result.footsteps, prototype.via_lateral,
-                                       prototype.shape, {.com_height = robot.com_height}))
+                                       prototype.shape, std::make_shared<Lipm>(robot.com_height)))
             .accepted;
   }
   Print(scenario.name, planner, row);

@@ -21,6 +21,7 @@
 #include "tests/smoothing/certificate_draws.h"
 #include "tests/smoothing/smoothed.h"
 #include "wpg/motion/zmp_drift.h"
+#include "wpg/robot/gravity.h"
 
 namespace halfstep {
 namespace {
@@ -118,7 +119,7 @@ void Cost(const std::string& name) {
 void Drift(long intervals, unsigned seed, const std::string& name) {
   const RobotModel robot = RobotNamed(name);
   const MotionBounds bounds(robot);
-  const double gravity = Lipm{}.gravity;
+  const double gravity = kGravity;
   WalkDraw draw(seed);
   constexpr double kLengths[] = {0.001, 0.003, 0.01, 0.03};
   for (const double length : kLengths) {

@@ -13,6 +13,7 @@
 #include "experiments/live/sensor.h"
 #include "smoothing/proof/certified_feasibility.h"
 #include "tests/benchmarks/random_episode.h"
+#include "wpg/motion/lipm.h"
 
 namespace halfstep {
 namespace {
@@ -45,7 +46,7 @@ double Clairvoyant(const Replanner& replanner, const TrueWorld& truth,
 // How smooth the executed motion is.
 void ExamineMotion(const Episode& episode, StudiedEpisode* studied) {
   const SuperposedWalk walk = episode.Executed();
-  const double omega = walk.lipm().omega();
+  const double omega = dynamic_cast<const Lipm&>(walk.model()).omega();
   const auto jump = [&](double t) {
     // The change over 2h, less what the derivatives of either side make of it: twice the change
     // over 2h less that over 4h.

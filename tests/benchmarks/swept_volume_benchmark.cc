@@ -20,6 +20,8 @@
 #include "planner/swept/box_tree_obj.h"
 #include "planner/swept/swept_volume_cache.h"
 #include "tests/planner/swept_volume_draws.h"
+#include "wpg/motion/half_step_tracks.h"
+#include "wpg/motion/lipm.h"
 
 namespace halfstep {
 namespace {
@@ -248,11 +250,9 @@ void BM_SampledQuery(benchmark::State& state) {
   for (int i = 0; i < volumes.set.size(); ++i) {
     for (const Side support : {Side::kLeft, Side::kRight}) {
       const HalfStep half_step = volumes.set.Down(i, support);
-      const HalfStepProfiles profiles(half_step.kind, half_step.shape, half_step.duration,
-                                      LipmOf(robot));
+      const HalfStepTracks tracks(half_step, LipmOf(robot));
       for (int n = 0; n < 300; ++n) {
-        const Posture posture =
-            SolvePosture(robot, Evaluate(half_step, profiles, half_step.duration * n / 299).value);
+        const Posture posture = SolvePosture(robot, tracks.At(half_step.duration * n / 299).value);
         for (size_t b : bodies) poses[{i, support}].push_back(posture.OfBody(robot.bodies[b]));
       }
     }

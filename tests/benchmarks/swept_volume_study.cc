@@ -21,6 +21,8 @@
 #include "planner/collision/convex_distance.h"
 #include "planner/swept/swept_volume_cache.h"
 #include "tests/planner/swept_volume_draws.h"
+#include "wpg/motion/half_step_tracks.h"
+#include "wpg/motion/lipm.h"
 
 namespace halfstep {
 namespace {
@@ -91,10 +93,9 @@ void Contain(long draws) {
     HalfStep half_step = Choose(volumes, &draw, &tree);
     const bool mirrored = draw.Index(2) == 0;  // a right support
     if (mirrored) half_step = half_step.Mirrored();
-    const HalfStepProfiles profiles(half_step.kind, half_step.shape, half_step.duration,
-                                    LipmOf(robot));
+    const HalfStepTracks tracks(half_step, LipmOf(robot));
     for (int k = 0; k < 100 && done < draws; ++k, ++done) {
-      BodyPoint point = DrawBodyPoint(robot, half_step, profiles, &draw);
+      BodyPoint point = DrawBodyPoint(robot, half_step, tracks, &draw);
       if (mirrored) point.p_S.y() = -point.p_S.y();
       outside += !tree->Contains(point.p_S);
       outside_clearance += !tree->Contains(point.p_S + options.clearance * draw.Direction());
@@ -109,12 +110,11 @@ class Truth {
  public:
   explicit Truth(const HalfStep& half_step) {
     const RobotModel& robot = SweptRobot();
-    const HalfStepProfiles profiles(half_step.kind, half_step.shape, half_step.duration,
-                                    LipmOf(robot));
+    const HalfStepTracks tracks(half_step, LipmOf(robot));
     constexpr int kInstants = 1000;  // at 1 m/s, 1 mm from the nearest one
     for (int n = 0; n <= kInstants; ++n) {
       const double tau = half_step.duration * n / kInstants;
-      const Posture posture = SolvePosture(robot, Evaluate(half_step, profiles, tau).value);
+      const Posture posture = SolvePosture(robot, tracks.At(tau).value);
       for (const RobotBody& body : robot.bodies) {
         poses_.push_back(
             {&body.shape, posture.OfBody(body), posture.OfBody(body) * body.shape.center});
@@ -211,13 +211,11 @@ void Inflate(int points) {
 bool SampledFree(const CollisionWorld& world, const std::vector<CollisionShape>& shapes,
                  const HalfStep& half_step, const Foothold& X_WS, double clearance) {
   const RobotModel& robot = SweptRobot();
-  const HalfStepProfiles profiles(half_step.kind, half_step.shape, half_step.duration,
-                                  LipmOf(robot));
+  const HalfStepTracks tracks(half_step, LipmOf(robot));
   std::vector<CollisionWorld::Scratch> scratch(robot.bodies.size());
   for (int n = 0; n < 300; ++n) {
     const double tau = half_step.duration * n / 299;
-    const Posture posture =
-        SolvePosture(robot, Transformed(X_WS, Evaluate(half_step, profiles, tau).value));
+    const Posture posture = SolvePosture(robot, Transformed(X_WS, tracks.At(tau).value));
     for (size_t b = 0; b < robot.bodies.size(); ++b) {
       if (!world.Clears(shapes[b], posture.OfBody(robot.bodies[b]), 0.0, clearance, &scratch[b])) {
         return false;

@@ -14,6 +14,7 @@
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/run_check.h"
 #include "tests/temporary_folder.h"
+#include "wpg/motion/lipm.h"
 
 namespace halfstep {
 namespace {
@@ -297,7 +298,7 @@ TEST(RunCommand, AnInfeasiblePlanTellsWhatItMissesForAMoment) {
                      .X_WF = Foothold::Level({0.2, y, 0}),
                      .via_height = 0.25,
                      .duration = 2.0}},
-                   0.24, {}, {.com_height = robot.com_height});
+                   0.24, {}, std::make_shared<Lipm>(robot.com_height));
   const SuperposedWalk walk(sequence, PlannedMotion(sequence));
   const MarginEvaluator evaluator(robot, Scene{}, MarginLimits{});
   const Margin witness{

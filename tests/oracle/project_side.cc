@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "tests/oracle/plain_files.h"
+#include "wpg/motion/lipm.h"
 
 namespace halfstep::oracle {
 namespace {
@@ -27,7 +28,7 @@ HalfStepSequence ToSequence(const WalkPlan& plan) {
                        .bump_ramp = plan.bump_ramp,
                        .foot_ramp = plan.foot_ramp,
                        .lift_share = plan.lift_share},
-                      {.com_height = plan.com_height});
+                      std::make_shared<Lipm>(plan.com_height));
 }
 
 HomotopyParameters ToParameters(const WalkPlan& plan) {

@@ -9,6 +9,8 @@
 #include "planner/swept/swept_volume.h"
 #include "planner/swept/swept_volume_bake.h"
 #include "planner/swept/swept_volume_query.h"
+#include "wpg/motion/half_step_tracks.h"
+#include "wpg/motion/lipm.h"
 #include "wpg/motion/posture.h"
 #include "wpg/robot/robot_model.h"
 
@@ -18,7 +20,7 @@ inline const RobotModel& SweptRobot() {
   static const RobotModel robot = LoadRobot(HALFSTEP_SOURCE_DIR "/wpg/robots/hrp2.yaml");
   return robot;
 }
-inline Lipm LipmOf(const RobotModel& robot) { return {.com_height = robot.com_height}; }
+inline Lipm LipmOf(const RobotModel& robot) { return Lipm(robot.com_height); }
 
 /// A few elements of HRP-2, to the front, aside, behind and turned.
 inline StepSet FewHalfSteps() {
@@ -89,12 +91,12 @@ struct BodyPoint {
   Eigen::Vector3d p_S{0, 0, 0};
 };
 inline BodyPoint DrawBodyPoint(const RobotModel& robot, const HalfStep& half_step,
-                               const HalfStepProfiles& profiles, SweptDraw* draw) {
+                               const HalfStepTracks& tracks, SweptDraw* draw) {
   BodyPoint point;
   point.tau = draw->Uniform(0, half_step.duration);
   point.body = static_cast<size_t>(draw->Index(static_cast<int>(robot.bodies.size())));
   const RobotBody& body = robot.bodies[point.body];
-  const Posture posture = SolvePosture(robot, Evaluate(half_step, profiles, point.tau).value);
+  const Posture posture = SolvePosture(robot, tracks.At(point.tau).value);
   point.p_S = posture.OfBody(body) * draw->SurfacePoint(body.shape);
   return point;
 }
@@ -133,11 +135,10 @@ inline BoxTree Eroded(const BoxTree& tree) {
 /// Whether the legs reach and keep their joint limits at 60 instants: a sampled stand-in for the
 /// certificate of robot-only margins, of which smoothing knows.
 inline bool SeemsWalkable(const RobotModel& robot, const HalfStep& half_step) {
-  const HalfStepProfiles profiles(half_step.kind, half_step.shape, half_step.duration,
-                                  LipmOf(robot));
+  const HalfStepTracks tracks(half_step, LipmOf(robot));
   for (int k = 0; k < 60; ++k) {
     const double tau = half_step.duration * k / 59;
-    const Posture posture = SolvePosture(robot, Evaluate(half_step, profiles, tau).value);
+    const Posture posture = SolvePosture(robot, tracks.At(tau).value);
     if (!posture.reachable) return false;
     for (size_t s = 0; s < 2; ++s) {
       for (size_t j = 0; j < 6; ++j) {

@@ -14,6 +14,7 @@
 #include "tests/planner/swept_volume_draws.h"
 #include "wpg/files/input_error.h"
 #include "wpg/geometry/support_polygon.h"
+#include "wpg/motion/lipm.h"
 
 namespace halfstep {
 namespace {
@@ -76,11 +77,10 @@ TEST(SweptVolumeQueryTest, FreeHalfStepsKeepTheClearanceOnBothSidesUpAndDown) {
       ++free;
       const HalfStep half_step = down ? volumes.set.Down(i, support) : volumes.set.Up(i, support);
       const Foothold X_WFoot = down ? X_WS : X_WS * volumes.set.Placement(i, support);
-      const HalfStepProfiles profiles(half_step.kind, half_step.shape, half_step.duration,
-                                      LipmOf(robot));
+      const HalfStepTracks tracks(half_step, LipmOf(robot));
       for (int n = 0; n <= 4; ++n) {
         const double tau = half_step.duration * n / 4;
-        const WalkState x_W = Transformed(X_WFoot, Evaluate(half_step, profiles, tau).value);
+        const WalkState x_W = Transformed(X_WFoot, tracks.At(tau).value);
         const Posture posture = SolvePosture(robot, x_W);
         for (size_t b = 0; b < robot.bodies.size(); ++b) {
           CollisionWorld::Scratch scratch;
@@ -124,12 +124,11 @@ TEST(SweptVolumeQueryTest, WhatIsFreeAmongObstaclesThatMoveIsFreeAtAnyTime) {
       const bool is_free = query.DownIsFree(i, support, X_WS);
       if (!is_free && !at_rest.DownIsFree(i, support, X_WS)) continue;
       const HalfStep half_step = volumes.set.Down(i, support);
-      const HalfStepProfiles profiles(half_step.kind, half_step.shape, half_step.duration,
-                                      LipmOf(robot));
+      const HalfStepTracks tracks(half_step, LipmOf(robot));
       bool clears = true;
       for (int n = 0; n <= 3; ++n) {
         const double tau = half_step.duration * n / 3;
-        const WalkState x_W = Transformed(X_WS, Evaluate(half_step, profiles, tau).value);
+        const WalkState x_W = Transformed(X_WS, tracks.At(tau).value);
         const Posture posture = SolvePosture(robot, x_W);
         for (size_t b = 0; b < robot.bodies.size(); ++b) {
           for (double t = 0.0; t < 3.0; t += 0.25) {

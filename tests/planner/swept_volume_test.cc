@@ -4,6 +4,7 @@
 
 #include "tests/planner/swept_volume_draws.h"
 #include "tests/wpg/shipped_robots.h"
+#include "wpg/motion/lipm.h"
 
 namespace halfstep {
 namespace {
@@ -13,11 +14,10 @@ using Eigen::Vector3d;
 // How many of random points of the moving robot, pushed outwards by at most δ, lie outside.
 int CountOutside(const BoxTree& tree, const HalfStep& half_step, double clearance, int draws,
                  SweptDraw* draw, const RobotModel& robot = SweptRobot()) {
-  const HalfStepProfiles profiles(half_step.kind, half_step.shape, half_step.duration,
-                                  LipmOf(robot));
+  const HalfStepTracks tracks(half_step, LipmOf(robot));
   int outside = 0;
   for (int i = 0; i < draws; ++i) {
-    const BodyPoint point = DrawBodyPoint(robot, half_step, profiles, draw);
+    const BodyPoint point = DrawBodyPoint(robot, half_step, tracks, draw);
     outside += !tree.Contains(point.p_S + clearance * draw->Direction());
   }
   return outside;
@@ -71,10 +71,10 @@ TEST(SweptVolumeTest, ContainsTheMirroredHalfStepOfAnAsymmetricRobot) {
   SweptDraw draw(5);
   EXPECT_EQ(CountOutside(*tree, half_step, 0.005, 500, &draw, robot), 0);
   const HalfStep mirrored = half_step.Mirrored();
-  const HalfStepProfiles profiles(mirrored.kind, mirrored.shape, mirrored.duration, LipmOf(robot));
+  const HalfStepTracks tracks(mirrored, LipmOf(robot));
   int right_hand = 0;
   for (int i = 0; i < 500; ++i) {
-    Vector3d p = DrawBodyPoint(robot, mirrored, profiles, &draw).p_S;
+    Vector3d p = DrawBodyPoint(robot, mirrored, tracks, &draw).p_S;
     right_hand += p.y() > 0.3;
     p.y() = -p.y();
     EXPECT_TRUE(tree->Contains(p));
@@ -97,12 +97,12 @@ TEST(SweptVolumeTest, ContainsTheMirrorImageOfABodyThatIsNotQuiteItsTwins) {
   const auto tree = baker.Bake(half_step, LipmOf(robot));
   ASSERT_TRUE(tree);
   const HalfStep mirrored = half_step.Mirrored();
-  const HalfStepProfiles profiles(mirrored.kind, mirrored.shape, mirrored.duration, LipmOf(robot));
+  const HalfStepTracks tracks(mirrored, LipmOf(robot));
   SweptDraw draw(7);
   int without = 0;
   for (int i = 0; i < 2000; ++i) {
     const double tau = draw.Uniform(0, mirrored.duration);
-    const Posture posture = SolvePosture(robot, Evaluate(mirrored, profiles, tau).value);
+    const Posture posture = SolvePosture(robot, tracks.At(tau).value);
     const Eigen::Isometry3d& X_SBody = posture.OfBody(box);
     const Vector3d left = X_SBody.linear().transpose() * Vector3d::UnitY();
     Vector3d p = X_SBody * (SupportPoint(box.shape, left) - 1e-6 * left);
@@ -176,7 +176,7 @@ TEST(SweptVolumeTest, PlacementsCoverTheHalfStepAndNoBodyLeavesItsOwn) {
   for (int element = 0; element < FewHalfSteps().size(); ++element) {
     const HalfStep half_step = FewHalfSteps().Down(element, Side::kLeft);
     const Lipm lipm = LipmOf(robot);
-    const HalfStepProfiles profiles(half_step.kind, half_step.shape, half_step.duration, lipm);
+    const HalfStepTracks tracks(half_step, lipm);
     const auto placements = baker.Cover(half_step, lipm);
     ASSERT_TRUE(placements);
     std::vector<double> covered(robot.bodies.size(), 0.0);  // by body, until then [s]
@@ -190,7 +190,7 @@ TEST(SweptVolumeTest, PlacementsCoverTheHalfStepAndNoBodyLeavesItsOwn) {
       ASSERT_LE(placement.displacement, to - from > 0.0081 ? 0.004 : 0.01) << body.name;
       for (const double at : {1e-9, 0.5, 1 - 1e-9}) {
         const double tau = from + at * (to - from);
-        const Posture posture = SolvePosture(robot, Evaluate(half_step, profiles, tau).value);
+        const Posture posture = SolvePosture(robot, tracks.At(tau).value);
         ASSERT_TRUE(posture.reachable);
         const Eigen::Isometry3d& X = posture.OfBody(body);
         const Eigen::Matrix<double, 3, 4> moved =
@@ -241,15 +241,14 @@ TEST(SweptVolumeTest, ContainsWhatABodyMovesWithinItsIntervals) {
   half_step.duration = 0.7;
   const auto tree = baker.Bake(half_step, LipmOf(robot));
   ASSERT_TRUE(tree);
-  const HalfStepProfiles profiles(half_step.kind, half_step.shape, half_step.duration,
-                                  LipmOf(robot));
+  const HalfStepTracks tracks(half_step, LipmOf(robot));
   SweptDraw draw(6);
   double fastest = 0.0;
   int outside = 0;
   for (int i = 0; i < 5000; ++i) {
     const double tau = draw.Uniform(0, half_step.duration);
     const RobotBody& body = robot.bodies[static_cast<size_t>(draw.Index(2))];
-    const WalkJet jet = Evaluate(half_step, profiles, tau);
+    const WalkJet jet = tracks.At(tau);
     const Vector3d velocity =
         jet.first.segment<3>(FootIndex(body.leg == 0 ? Side::kLeft : Side::kRight));
     const Vector3d ahead = velocity.norm() > 1e-3 ? velocity.normalized() : draw.Direction();

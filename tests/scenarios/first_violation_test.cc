@@ -9,6 +9,7 @@
 #include "smoothing/margins/margin_evaluator.h"
 #include "tests/scenarios/load_experiment.h"
 #include "tests/smoothing/test_walks.h"
+#include "wpg/motion/lipm.h"
 
 namespace halfstep {
 namespace {
@@ -83,8 +84,8 @@ TEST(FirstViolation, SeesEveryPairOfBodies) {
   const std::vector<std::array<int, 2>> pairs = robot.self_pairs;
   WalkDraw draw(72);
   for (int i = 0; i < Draws(10); ++i) {
-    const HalfStepSequence sequence =
-        MakeSequence(StandingFeet(), draw.Footsteps(2), 0.24, {}, {.com_height = robot.com_height});
+    const HalfStepSequence sequence = MakeSequence(StandingFeet(), draw.Footsteps(2), 0.24, {},
+                                                   std::make_shared<Lipm>(robot.com_height));
     const SuperposedWalk walk(sequence, draw.Parameters(sequence, 0.0, 0.5));
     const Posture posture = SolvePosture(robot, walk.At(draw.Uniform(0, walk.duration())).value);
     if (!posture.reachable) continue;

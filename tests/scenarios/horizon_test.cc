@@ -221,7 +221,7 @@ HalfStepSequence StraightWalk(const Experiment& e, int steps) {
         {.side = side, .X_WF = Foothold::Level({0.1 * i, Sign(side) * 0.105, 0.0})});
   }
   const HalfStep& like = e.sequence.half_steps.front().half_step;
-  return MakeSequence(StandingFeet(), footsteps, like.via_lateral, like.shape, e.sequence.lipm);
+  return MakeSequence(StandingFeet(), footsteps, like.via_lateral, like.shape, e.sequence.model);
 }
 
 // Regression: what a window gained is refused in the whole walk, and the gain of all was lost.

@@ -17,6 +17,7 @@
 #include "smoothing/proof/certified_feasibility.h"
 #include "tests/scenarios/load_experiment.h"
 #include "tests/smoothing/smoothed.h"
+#include "wpg/motion/lipm.h"
 
 namespace halfstep {
 namespace {
@@ -118,7 +119,8 @@ TEST(LipmBound, TheFirstShiftIsWhatTheBestZmpNeeds) {
   limits.demanded_of(MarginFamily::kFootSpeed) = 0.0;
   const LipmBound bound = LowerBound(ProblemOf(e, limits));
   ASSERT_GT(bound.first, 0.02);
-  const double omega = e.sequence.lipm.omega(), half = 0.5 * e.robot.sole_size.y();
+  const double omega = dynamic_cast<const Lipm&>(*e.sequence.model).omega(),
+               half = 0.5 * e.robot.sole_size.y();
   const double outer = -0.085 - half;  // of the right sole, whose foot goes first
   const double inner = 0.085 - half + limits.demanded_of(MarginFamily::kZmp);
   const double flight =

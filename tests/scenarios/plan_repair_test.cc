@@ -74,7 +74,7 @@ TEST_F(PlanRepairTest, AFootstepOutOfReachCannotBeMadeAtAll) {
   const Foothold right = Foothold::Level({0.0, -0.085, 0.0});
   const HalfStepSequence far = MakeSequence(
       {left, right}, {{.side = Side::kRight, .X_WF = Foothold::Level({1.0, -0.085, 0.0})}}, 0.24,
-      e_.sequence.half_steps[0].half_step.shape, e_.sequence.lipm);
+      e_.sequence.half_steps[0].half_step.shape, e_.sequence.model);
   const PlanRepair repair = RepairPlan(far, test_, {}, {});
   EXPECT_TRUE(repair.steps.empty());
   ASSERT_EQ(repair.failures.size(), 1u);

@@ -8,6 +8,7 @@
 #include "tests/scenarios/load_experiment.h"
 #include "tests/smoothing/test_walks.h"
 #include "tests/wpg/acceleration_limits.h"
+#include "wpg/motion/lipm.h"
 
 namespace halfstep {
 namespace {
@@ -166,8 +167,8 @@ TEST_F(SlackRows, OfTurningFeetAndUpperLimitsAgreeWithDifferences) {
   WalkDraw draw(352);
   int left = 0, right = 0;
   for (int i = 0; i < Draws(150); ++i) {
-    const HalfStepSequence sequence =
-        MakeSequence(StandingFeet(), draw.Footsteps(2), 0.24, {}, {.com_height = robot.com_height});
+    const HalfStepSequence sequence = MakeSequence(StandingFeet(), draw.Footsteps(2), 0.24, {},
+                                                   std::make_shared<Lipm>(robot.com_height));
     const HomotopyParameters parameters = draw.Parameters(sequence, 0.05, 0.6);
     const SuperposedWalk walk(sequence, parameters);
     const double t = draw.Uniform(0, walk.duration());
@@ -211,7 +212,7 @@ TEST_F(SlackRows, OutOfReachIsARow) {
   const HalfStepSequence sequence =
       MakeSequence({Foothold::Level({0, y, 0}), Foothold::Level({0, -y, 0})},
                    {{.side = Side::kLeft, .X_WF = Foothold::Level({1.2, y, 0})}}, 0.24, {},
-                   {.com_height = e_.robot.com_height});
+                   std::make_shared<Lipm>(e_.robot.com_height));
   const SuperposedWalk walk(sequence, PlannedMotion(sequence));
   SlackEvaluator slacks(evaluator_, 1.0);
   InstantSlacks instant;

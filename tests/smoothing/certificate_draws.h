@@ -10,6 +10,7 @@
 #include "tests/wpg/generated_robots.h"
 #include "tests/wpg/shipped_robots.h"
 #include "wpg/geometry/foothold.h"
+#include "wpg/motion/lipm.h"
 
 namespace halfstep {
 
@@ -74,7 +75,7 @@ inline HalfStepSequence DrawSequence(const RobotModel& robot, int steps, const W
   const HalfStepShape shape{.shift = shift, .foot_delay = delay};
   const double via_lateral = width * draw->Uniform(1.05, 1.25);
   return Moved(draw->Pose(2.0, 3.0), MakeSequence(start, footsteps, via_lateral, shape,
-                                                  {.com_height = robot.com_height}));
+                                                  std::make_shared<Lipm>(robot.com_height)));
 }
 
 enum class SceneKind { kCylinders, kClutter, kFence };

@@ -12,6 +12,7 @@
 #include "smoothing/proof/sampled_feasibility.h"
 #include "tests/smoothing/certificate_draws.h"
 #include "tests/smoothing/smoothed.h"
+#include "wpg/motion/lipm.h"
 
 namespace halfstep {
 namespace {
@@ -55,13 +56,13 @@ Feasibility Sampled(const RobotModel& robot, const Scene& scene, const MarginLim
 struct FastStep {
   RobotModel robot = Hrp2();
   double y = 0.5 * robot.standing_width;
-  HalfStepSequence sequence =
-      MakeSequence({Foothold::Level({0, y, 0}), Foothold::Level({-0.12, -y, 0})},
-                   {{.side = Side::kRight,
-                     .X_WF = Foothold::Level({0.12, -y, 0}),
-                     .via_height = 0.12,
-                     .duration = 0.8}},
-                   0.24, {.shift = 0.1, .foot_delay = 0.05}, {.com_height = robot.com_height});
+  HalfStepSequence sequence = MakeSequence(
+      {Foothold::Level({0, y, 0}), Foothold::Level({-0.12, -y, 0})},
+      {{.side = Side::kRight,
+        .X_WF = Foothold::Level({0.12, -y, 0}),
+        .via_height = 0.12,
+        .duration = 0.8}},
+      0.24, {.shift = 0.1, .foot_delay = 0.05}, std::make_shared<Lipm>(robot.com_height));
   SuperposedWalk walk{sequence, Overlapped(sequence, 0.8)};
   double middle = 0.5 * walk.duration();
 

@@ -12,6 +12,7 @@
 #include "smoothing/proof/certified_feasibility.h"
 #include "smoothing/proof/sampled_feasibility.h"
 #include "tests/smoothing/test_walks.h"
+#include "wpg/motion/lipm.h"
 
 namespace halfstep {
 namespace {
@@ -41,7 +42,7 @@ RobotModel WithBall(const std::string& body, double radius, double height) {
       {Foothold::Level({0, 0.5 * robot.standing_width, 0}),
        Foothold::Level({0, -0.5 * robot.standing_width, 0})},
       {{.side = Side::kRight, .X_WF = Foothold::Level({0, -0.5 * robot.standing_width, 0})}}, 0.24,
-      {}, {.com_height = robot.com_height});
+      {}, std::make_shared<Lipm>(robot.com_height));
   const SuperposedWalk standing(sequence, PlannedMotion(sequence));
   const Posture posture = SolvePosture(robot, standing.At(0.0).value);
   RobotBody ball = robot.bodies[static_cast<size_t>(of)];
@@ -62,7 +63,7 @@ HalfStepSequence TwoSteps(const RobotModel& robot) {
       {Foothold::Level({0, y, 0}), Foothold::Level({0, -y, 0})},
       {{.side = Side::kRight, .X_WF = Foothold::Level({0.2, -y, 0}), .duration = 1.2},
        {.side = Side::kLeft, .X_WF = Foothold::Level({0.2, y, 0}), .duration = 1.2}},
-      0.24, {}, {.com_height = robot.com_height});
+      0.24, {}, std::make_shared<Lipm>(robot.com_height));
 }
 
 Feasibility Certify(const RobotModel& robot, const Scene& scene, const MarginLimits& limits,
@@ -143,7 +144,7 @@ TEST(Floor, IsNotCertifiedWhereTheFootIsTooLowForAMoment) {
     for (size_t k = 0; k < 4; ++k)
       parameters.of(ParameterFamily::kFootDelay)[k] = k == low ? 0.08 : 0.15;
     const SuperposedWalk walk(sequence, parameters);
-    const HalfStepProfiles& p = walk.profiles(static_cast<int>(low));
+    const HalfStepTracks& p = walk.tracks(static_cast<int>(low));
     const bool up = low % 2 == 0;
     const double at =
         walk.start_of(static_cast<int>(low)) + (up ? p.horizontal_begin() : p.horizontal_end());
@@ -447,7 +448,7 @@ TEST(NoStep, CountsForSolesThatStandOnly) {
   const HalfStepSequence sequence =
       MakeSequence({Foothold::Level({0, y, 0}), Foothold::Level({-0.2, -y, 0})},
                    {{.side = Side::kRight, .X_WF = Foothold::Level({0.2, -y, 0}), .duration = 2.0}},
-                   0.24, {}, {.com_height = robot.com_height});
+                   0.24, {}, std::make_shared<Lipm>(robot.com_height));
   const SuperposedWalk walk(sequence, Overlapped(sequence, 0.3));
   Scene scene;
   Eigen::Matrix2Xd area(2, 4);

@@ -6,6 +6,7 @@
 
 #include "smoothing/walk/superposed_walk.h"
 #include "tests/smoothing/test_walks.h"
+#include "wpg/motion/lipm.h"
 #include "wpg/motion/moved_footsteps.h"
 
 namespace halfstep {
@@ -110,7 +111,7 @@ TEST(FootstepFamilies, AFootThatStepsTwiceStays) {
   }
   const HalfStepSequence sequence =
       MakeSequence({Foothold::Level({0, 0.105, 0}), Foothold::Level({0, -0.105, 0})}, footsteps,
-                   0.24, HalfStepShape{}, Lipm{});
+                   0.24, HalfStepShape{}, std::make_shared<Lipm>());
   const ParameterTable table(sequence, {}, {.footsteps = true});
   const std::vector<bool> free = {false, false, true, true, false, false};
   for (int step = 0; step < 6; ++step) {

@@ -9,6 +9,7 @@
 
 #include "smoothing/walk/parameter_complaint.h"
 #include "tests/smoothing/test_walks.h"
+#include "wpg/motion/lipm.h"
 
 namespace halfstep {
 namespace {
@@ -23,7 +24,8 @@ HalfStepSequence ThreeSteps() {
       {.side = Side::kRight, .X_WF = Foothold::Level({0.2, -0.105, 0})}};
   footsteps[1].duration = 1.0;
   footsteps[2].duration = 3.0;
-  return MakeSequence(StandingFeet(), footsteps, 0.24, {.shift = 0.1, .support_point = 0.02}, {});
+  return MakeSequence(StandingFeet(), footsteps, 0.24, {.shift = 0.1, .support_point = 0.02},
+                      std::make_shared<Lipm>());
 }
 
 TEST(HomotopyParameters, PlannedMotionHasNoOverlapFullHeightAndTheRestAsPlanned) {

@@ -15,6 +15,7 @@
 #include "tests/wpg/acceleration_limits.h"
 #include "tests/wpg/symmetric_masses.h"
 #include "tests/wpg/torque_limits.h"
+#include "wpg/motion/lipm.h"
 #include "wpg/robot/torque_limits.h"
 
 namespace halfstep {
@@ -24,7 +25,7 @@ namespace {
 HalfStepSequence OneStep(const RobotModel& robot) {
   return MakeSequence(StandingFeet(),
                       {{.side = Side::kRight, .X_WF = Foothold::Level({0.2, -0.105, 0.1})}}, 0.24,
-                      {}, {.com_height = robot.com_height});
+                      {}, std::make_shared<Lipm>(robot.com_height));
 }
 
 class MarginEvaluatorTest : public testing::Test {
@@ -51,14 +52,14 @@ TEST_F(MarginEvaluatorTest, ZmpMarginByHand) {
   EXPECT_NEAR(zmp(2.0).value, 0.0685, 1e-12);  // at the centre of the support sole
   EXPECT_EQ(zmp(2.0).subject, 0);
   // At the peak of the bump after the shift it is beyond the centre, by that part of 0.105 m.
-  const HalfStepProfiles& profiles = walk_.profiles(0);
-  const double peak = 2.0 - 0.5 * profiles.t1();
-  EXPECT_NEAR(zmp(peak).value, 0.0685 - 0.105 * profiles.bump(), 1e-12);
-  EXPECT_GT(0.105 * profiles.bump(), 0.005);
+  const HalfStepTracks& tracks = walk_.tracks(0);
+  const double peak = 2.0 - 0.5 * tracks.t1();
+  EXPECT_NEAR(zmp(peak).value, 0.0685 - 0.105 * tracks.bump(), 1e-12);
+  EXPECT_GT(0.105 * tracks.bump(), 0.005);
   // From lift-off on the support sole alone counts: a jump, also at the instant itself.
-  EXPECT_NEAR(zmp(profiles.t2()).value, 0.0685, 1e-9);
-  EXPECT_GT(zmp(profiles.t2() - 1e-9).value, 0.068);
-  EXPECT_EQ(zmp(profiles.t2() - 1e-9).subject, -1);
+  EXPECT_NEAR(zmp(tracks.t2()).value, 0.0685, 1e-9);
+  EXPECT_GT(zmp(tracks.t2() - 1e-9).value, 0.068);
+  EXPECT_EQ(zmp(tracks.t2() - 1e-9).subject, -1);
 }
 
 TEST_F(MarginEvaluatorTest, FloorMarginIsTheHeightOfTheSoleWhileItMovesHorizontally) {
@@ -131,7 +132,7 @@ TEST_F(MarginEvaluatorTest, JointMarginsAreTheLeastOverAllTwelveJoints) {
 TEST_F(MarginEvaluatorTest, OutOfReachEveryMarginOfTheBodyIsLost) {
   const HalfStepSequence far = MakeSequence(
       StandingFeet(), {{.side = Side::kRight, .X_WF = Foothold::Level({0.9, -0.105, 0})}}, 0.24, {},
-      {.com_height = robot_.com_height});
+      std::make_shared<Lipm>(robot_.com_height));
   const SuperposedWalk walk(far, PlannedMotion(far));
   const MarginSet margins = At(walk, {1, 2.0});
   EXPECT_LT(Of(margins, MarginFamily::kReach).value, 0.0);

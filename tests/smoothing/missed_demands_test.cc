@@ -10,6 +10,7 @@
 
 #include "smoothing/proof/certified_feasibility.h"
 #include "tests/wpg/hrp2.h"
+#include "wpg/motion/lipm.h"
 
 namespace halfstep {
 namespace {
@@ -34,7 +35,7 @@ class MissedDemandsTest : public testing::Test {
                        .X_WF = Foothold::Level({0.2, y, 0}),
                        .via_height = 0.25,
                        .duration = 2.0}},
-                     0.24, {}, {.com_height = robot_.com_height});
+                     0.24, {}, std::make_shared<Lipm>(robot_.com_height));
     return {sequence, PlannedMotion(sequence)};
   }
   // Footsteps of both feet in turn, the right one first, `apart` [m] ahead of each other, but for
@@ -52,7 +53,7 @@ class MissedDemandsTest : public testing::Test {
                            .duration = 2.0});
     }
     return MakeSequence({Foothold::Level({0, y, 0}), Foothold::Level({0, -y, 0})}, footsteps, 0.24,
-                        {}, {.com_height = robot_.com_height});
+                        {}, std::make_shared<Lipm>(robot_.com_height));
   }
   static Margin WitnessOf(const MarginEvaluator& evaluator, const SuperposedWalk& walk) {
     MarginEvaluator::Scratch scratch = evaluator.MakeScratch();

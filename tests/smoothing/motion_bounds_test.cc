@@ -1,5 +1,6 @@
 #include "wpg/motion/motion_bounds.h"
 #include "smoothing/proof/interval_statements.h"
+#include "wpg/motion/lipm.h"
 
 #include <gtest/gtest.h>
 
@@ -255,7 +256,7 @@ TEST(MotionBounds, AreNoneWhereALegIsStretched) {
                                          Foothold::Level({0, -0.5 * width, 0})};
   const HalfStepSequence sequence =
       MakeSequence(start, {{.side = Side::kLeft, .X_WF = Foothold::Level({0.9, 0.5 * width, 0})}},
-                   0.24, {}, {.com_height = robot.com_height});
+                   0.24, {}, std::make_shared<Lipm>(robot.com_height));
   const SuperposedWalk walk(sequence, PlannedMotion(sequence));
   const MotionBounds bounds(robot);
   IntervalMotion motion;

@@ -11,6 +11,7 @@
 #include "tests/smoothing/fake_feasibility.h"
 #include "tests/smoothing/smoothed.h"
 #include "tests/smoothing/test_walks.h"
+#include "wpg/motion/lipm.h"
 
 namespace halfstep {
 namespace {
@@ -30,17 +31,17 @@ Scene BallOf(double speed) { return Ball({.speed = speed, .horizon = 0.5}); }
 
 class MovingObstacles : public testing::Test {
  protected:
-  const HalfStepSequence sequence_ =
-      MakeSequence(StandingFeet(),
-                   {{.side = Side::kRight,
-                     .X_WF = Foothold::Level({0.2, -0.105, 0}),
-                     .via_height = 0.1,
-                     .duration = 2},
-                    {.side = Side::kLeft,
-                     .X_WF = Foothold::Level({0.4, 0.105, 0}),
-                     .via_height = 0.1,
-                     .duration = 2}},
-                   0.24, {.shift = 0.05, .foot_delay = 0.1}, {.com_height = Hrp2().com_height});
+  const HalfStepSequence sequence_ = MakeSequence(StandingFeet(),
+                                                  {{.side = Side::kRight,
+                                                    .X_WF = Foothold::Level({0.2, -0.105, 0}),
+                                                    .via_height = 0.1,
+                                                    .duration = 2},
+                                                   {.side = Side::kLeft,
+                                                    .X_WF = Foothold::Level({0.4, 0.105, 0}),
+                                                    .via_height = 0.1,
+                                                    .duration = 2}},
+                                                  0.24, {.shift = 0.05, .foot_delay = 0.1},
+                                                  std::make_shared<Lipm>(Hrp2().com_height));
   const HomotopyParameters planned_ = PlannedMotion(sequence_);
 };
 

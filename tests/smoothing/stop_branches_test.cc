@@ -10,6 +10,7 @@
 #include "smoothing/proof/stoppable_feasibility.h"
 #include "tests/smoothing/fake_feasibility.h"
 #include "tests/smoothing/test_walks.h"
+#include "wpg/motion/lipm.h"
 
 namespace halfstep {
 namespace {
@@ -58,7 +59,7 @@ TEST(StopBranch, EndsAtRestOnOneFootOrOnBoth) {
         const Eigen::Vector2d support_point = X_WS * walk.half_step(k).support_point();
         EXPECT_LT((end.value.segment<2>(kComX) - support_point).norm(), 1e-9);
       }
-      const double omega_squared = std::pow(branch.lipm().omega(), 2);
+      const double omega_squared = std::pow(dynamic_cast<const Lipm&>(branch.model()).omega(), 2);
       for (int n = 0; n <= 10; ++n) {
         const WalkJet jet = branch.At(branch.duration() * n / 10);
         for (int axis = 0; axis < 2; ++axis) {

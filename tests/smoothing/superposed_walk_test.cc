@@ -9,6 +9,7 @@
 
 #include "opt/problem/derivative_check.h"
 #include "tests/smoothing/test_walks.h"
+#include "wpg/motion/lipm.h"
 
 namespace halfstep {
 namespace {
@@ -36,7 +37,8 @@ TEST(SuperposedWalk, CoMAndZmpSatisfyTheLipmAtRandomInstants) {
       const WalkJet x = walk.At(draw.Uniform(0, walk.duration()));
       for (int axis = 0; axis < 2; ++axis) {
         const int c = kComX + axis, p = kZmpX + axis;
-        const double zmp = x.value[c] - x.second[c] / std::pow(walk.lipm().omega(), 2);
+        const double zmp =
+            x.value[c] - x.second[c] / std::pow(dynamic_cast<const Lipm&>(walk.model()).omega(), 2);
         worst = std::max(worst, std::abs(zmp - x.value[p]));
       }
     }
@@ -123,11 +125,11 @@ TEST(SuperposedWalk, WithoutOverlapItIsTheConcatenationOfIsolatedHalfSteps) {
     double start = 0;
     for (int k = 0; k < sequence.size(); ++k) {
       const auto& [h, X_WS] = sequence.half_steps[static_cast<size_t>(k)];
-      const HalfStepProfiles profiles(h.kind, h.shape, h.duration, sequence.lipm);
+      const HalfStepTracks tracks(h, *sequence.model);
       EXPECT_NEAR(walk.start_of(k), start, 1e-13);
       for (int n = 0; n < 20; ++n) {
         const double tau = n == 0 ? 0 : n == 1 ? h.duration : draw.Uniform(0, h.duration);
-        const WalkJet isolated = Evaluate(h, profiles, tau), x = walk.At({k, tau});
+        const WalkJet isolated = tracks.At(tau), x = walk.At({k, tau});
         EXPECT_LT(Largest(x.value - Transformed(X_WS, isolated.value)), 4e-15);
         // The seams are where they are to 1e-15 s: third derivatives times that.
         EXPECT_LT(Largest(x.first - Rotated(X_WS.Planar(), isolated.first)), 1e-13);
@@ -142,7 +144,7 @@ TEST(SuperposedWalk, WithoutOverlapItIsTheConcatenationOfIsolatedHalfSteps) {
 TEST(SuperposedWalk, RefusesFootholdsAtAnotherHeight) {
   const HalfStepSequence sequence =
       MakeSequence(StandingFeet(), {{.side = Side::kRight, .X_WF = {Pose2{0.2, -0.105, 0}, 0.01}}},
-                   0.24, {}, {});
+                   0.24, {}, std::make_shared<Lipm>());
   EXPECT_THROW(SuperposedWalk(sequence, PlannedMotion(sequence)), std::logic_error);
 }
 
@@ -152,15 +154,15 @@ TEST(SuperposedWalk, WithoutOverlapOnASupportSoleAtTheOriginItIsTheHalfStepBitFo
     const std::array<Foothold, 2> start = {Foothold::Level({}), Foothold::Level({0, -0.21, 0})};
     const Foothold X_WF = Foothold::Level(
         {draw.Uniform(-0.1, 0.2), draw.Uniform(-0.3, -0.2), draw.Uniform(-0.3, 0.3)});
-    const HalfStepSequence sequence =
-        MakeSequence(start, {{.side = Side::kRight, .X_WF = X_WF}}, 0.24, {}, {});
+    const HalfStepSequence sequence = MakeSequence(start, {{.side = Side::kRight, .X_WF = X_WF}},
+                                                   0.24, {}, std::make_shared<Lipm>());
     const SuperposedWalk walk(sequence, PlannedMotion(sequence));
     for (int k = 0; k < 2; ++k) {
       const HalfStep& h = sequence.half_steps[static_cast<size_t>(k)].half_step;
-      const HalfStepProfiles profiles(h.kind, h.shape, h.duration, sequence.lipm);
+      const HalfStepTracks tracks(h, *sequence.model);
       for (int n = 0; n <= 20; ++n) {
         const double tau = h.duration * n / 20;
-        const WalkJet isolated = Evaluate(h, profiles, tau), x = walk.At({k, tau});
+        const WalkJet isolated = tracks.At(tau), x = walk.At({k, tau});
         EXPECT_EQ(x.value, isolated.value);
         EXPECT_EQ(x.first, isolated.first);
         EXPECT_EQ(x.second, isolated.second);
@@ -213,8 +215,8 @@ TEST(SuperposedWalk, IsTheSumOverAllHalfSteps) {
         h.via_along = parameters.of(ParameterFamily::kViaAlong)[static_cast<size_t>(k / 2)];
         h.shape.shift = parameters.zmp_shifts[static_cast<size_t>(k)];
         h.shape.bump_ramp = parameters.of(ParameterFamily::kZmpBumpRamp)[static_cast<size_t>(k)];
-        const HalfStepProfiles profiles(h.kind, h.shape, h.duration, sequence.lipm);
-        const WalkJet own = Evaluate(h, profiles, t - walk.start_of(k));
+        const HalfStepTracks tracks(h, *sequence.model);
+        const WalkJet own = tracks.At(t - walk.start_of(k));
         const WalkState from = Transformed(X_WS, h.Start());
         if (k == 0) sum.value = from;
         sum.value += Transformed(X_WS, own.value) - from;
@@ -306,7 +308,7 @@ TEST(SuperposedWalk, FeetAreInTheAirAndMoveHorizontallyWhenTheHalfStepsSaySo) {
       int step_in_air = -1;
       for (int step = 0; step < 3; ++step) {
         const int up = 2 * step, down = up + 1;
-        const HalfStepProfiles &u = walk.profiles(up), &d = walk.profiles(down);
+        const HalfStepTracks &u = walk.tracks(up), &d = walk.tracks(down);
         const double up_begin = walk.start_of(up), down_begin = walk.start_of(down);
         if (t > up_begin + u.t2() && t < down_begin + d.t1()) step_in_air = step;
         const double from = std::min(up_begin + u.horizontal_begin(), down_begin);

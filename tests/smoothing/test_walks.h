@@ -100,7 +100,7 @@ inline HomotopyParameters Overlapped(const HalfStepSequence& sequence, double fr
 inline std::vector<double> Knots(const SuperposedWalk& walk) {
   std::vector<double> knots;
   for (int i = 0; i < walk.num_half_steps(); ++i) {
-    const HalfStepProfiles& p = walk.profiles(i);
+    const HalfStepTracks& p = walk.tracks(i);
     knots.push_back(walk.start_of(i));
     for (const double tau : p.Knots()) {
       knots.push_back(walk.start_of(i) + tau);

@@ -6,6 +6,7 @@
 
 #include "opt/problem/derivative_check.h"
 #include "tests/smoothing/test_walks.h"
+#include "wpg/motion/lipm.h"
 
 namespace halfstep {
 namespace {
@@ -14,10 +15,10 @@ namespace {
 WalkEffort Sampled(const SuperposedWalk& walk, int samples) {
   std::vector<double> knots = Knots(walk);
   for (int i = 0; i < walk.num_half_steps(); ++i) {
-    knots.push_back(walk.start_of(i) + 0.5 * walk.profiles(i).duration());
+    knots.push_back(walk.start_of(i) + 0.5 * walk.tracks(i).duration());
   }
   std::sort(knots.begin(), knots.end());
-  const double omega2 = walk.lipm().omega() * walk.lipm().omega();
+  const double omega = dynamic_cast<const Lipm&>(walk.model()).omega(), omega2 = omega * omega;
   WalkEffort effort;
   for (size_t i = 0; i + 1 < knots.size(); ++i) {
     const double h = (knots[i + 1] - knots[i]) / (2 * samples);

@@ -27,7 +27,7 @@ struct Instance {
     at = walk.Locate(t);
     const double tau = t - walk.start_of(std::max(0, at.half_step - 1));
     if (at.half_step > 0 && draw->Uniform(0, 1) < 0.5 &&
-        tau < walk.profiles(at.half_step - 1).duration()) {
+        tau < walk.tracks(at.half_step - 1).duration()) {
       at = {at.half_step - 1, tau};
     }
   }

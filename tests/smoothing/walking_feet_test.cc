@@ -7,6 +7,7 @@
 
 #include "smoothing/walk/superposed_walk.h"
 #include "tests/smoothing/test_walks.h"
+#include "wpg/motion/lipm.h"
 
 namespace halfstep {
 namespace {
@@ -16,7 +17,8 @@ TEST(WalkingFeet, FeetLandExactlyOnTheFootstepsAndStayThere) {
   for (int i = 0; i < 200; ++i) {
     const std::vector<Footstep> footsteps = draw.Footsteps(5);
     const HalfStepSequence sequence =
-        MakeSequence(StandingFeet(), footsteps, 0.24, {.shift = draw.Uniform(0.03, 0.3)}, {});
+        MakeSequence(StandingFeet(), footsteps, 0.24, {.shift = draw.Uniform(0.03, 0.3)},
+                     std::make_shared<Lipm>());
     const HomotopyParameters parameters = draw.ExtremeParameters(sequence);
     const SuperposedWalk walk(sequence, parameters);
     std::array<Foothold, 2> feet = StandingFeet();
@@ -32,10 +34,10 @@ TEST(WalkingFeet, FeetLandExactlyOnTheFootstepsAndStayThere) {
         EXPECT_LT(x.first.segment<4>(FootIndex(side)).norm(), 1e-12);
       };
       const int up = 2 * step, down = up + 1;
-      const double take_off = walk.start_of(up) + walk.profiles(up).t2();
-      const double landing = walk.start_of(down) + walk.profiles(down).t1();
+      const double take_off = walk.start_of(up) + walk.tracks(up).t2();
+      const double landing = walk.start_of(down) + walk.tracks(down).t1();
       ASSERT_LE(take_off, landing);
-      at_rest({up, walk.profiles(up).t2()}, footstep.side);
+      at_rest({up, walk.tracks(up).t2()}, footstep.side);
       for (int n = 0; n <= 10; ++n) {  // the support foot does not move while the other is up
         const double t = take_off + (landing - take_off) * n / 10;
         at_rest({up, t - walk.start_of(up)}, Opposite(footstep.side));
@@ -44,7 +46,7 @@ TEST(WalkingFeet, FeetLandExactlyOnTheFootstepsAndStayThere) {
       feet[static_cast<size_t>(Index(footstep.side))] =
           footstep.X_WF * Foothold::Level({parameters.footstep_xs[j], parameters.footstep_ys[j],
                                            parameters.footstep_yaws[j]});
-      at_rest({down, walk.profiles(down).t1()}, footstep.side);
+      at_rest({down, walk.tracks(down).t1()}, footstep.side);
     }
   }
 }
@@ -79,7 +81,7 @@ TEST(WalkingFeet, BeyondTheUpDownBoundTheFootWouldGoUnderTheFloor) {
   // So the bound is not only enough but needed: no further overlap can be offered.
   const HalfStepSequence sequence = MakeSequence(
       StandingFeet(), {{.side = Side::kRight, .X_WF = Foothold::Level({0.2, -0.105, 0})}}, 0.24, {},
-      {});
+      std::make_shared<Lipm>());
   const SuperposedWalk planned(sequence, PlannedMotion(sequence));
   const double T = planned.end_of(0);
   const double overlap = Overlapped(sequence, 1.0).overlaps[0] + 0.05;

@@ -1,4 +1,5 @@
 #include "wpg/motion/half_step_sequence.h"
+#include "wpg/motion/lipm.h"
 
 #include <gtest/gtest.h>
 
@@ -22,11 +23,11 @@ TEST(MakeSequence, OneStepByHand) {
                      .X_WF = Foothold::Level({0.2, -0.125, 0.1}),
                      .via_height = 0.2,
                      .duration = 1.7}},
-                   0.22, {.shift = 0.06, .foot_delay = 0.12}, {.com_height = 0.7});
+                   0.22, {.shift = 0.06, .foot_delay = 0.12}, std::make_shared<Lipm>(0.7));
   ASSERT_EQ(s.size(), 2);
   EXPECT_EQ(s.num_steps(), 1);
   EXPECT_EQ(s.num_junctions(), 1);
-  EXPECT_EQ(s.lipm.com_height, 0.7);
+  EXPECT_EQ(dynamic_cast<const Lipm&>(*s.model).com_height(), 0.7);
   for (const PlacedHalfStep& placed : s.half_steps) {
     const HalfStep& h = placed.half_step;
     EXPECT_EQ(placed.X_WS, Foothold::Level({0, 0.105, 0}));
@@ -48,7 +49,8 @@ TEST(MakeSequence, EachHalfStepBeginsWhereTheOneBeforeEnds) {
   SequenceDraw draw(5);
   for (int i = 0; i < 50; ++i) {
     const std::vector<Footstep> footsteps = draw.Footsteps(6);
-    const HalfStepSequence s = MakeSequence(StandingFeet(), footsteps, 0.24, {}, {});
+    const HalfStepSequence s =
+        MakeSequence(StandingFeet(), footsteps, 0.24, {}, std::make_shared<Lipm>());
     ASSERT_EQ(s.size(), 12);
     std::array<Foothold, 2> feet = StandingFeet();
     for (int k = 0; k < s.size(); ++k) {
@@ -81,8 +83,9 @@ TEST(MakeSequence, YawKeepsItsTurns) {
   // A foot that has turned by more than a full turn: the waist must not turn back.
   const std::array<Foothold, 2> start = {Foothold::Level({0, 0.105, 6.4}),
                                          Foothold::Level({0, -0.105, 6.4})};
-  const HalfStepSequence s = MakeSequence(
-      start, {{.side = Side::kLeft, .X_WF = Foothold::Level({0, 0.105, 6.6})}}, 0.24, {}, {});
+  const HalfStepSequence s =
+      MakeSequence(start, {{.side = Side::kLeft, .X_WF = Foothold::Level({0, 0.105, 6.6})}}, 0.24,
+                   {}, std::make_shared<Lipm>());
   EXPECT_NEAR(EndInW(s.half_steps[1])[kWaistYaw], 6.5, 1e-14);
 }
 
@@ -91,7 +94,7 @@ TEST(MakeSequence, CarriesTheHeightsOfFootholds) {
       MakeSequence(StandingFeet(),
                    {{.side = Side::kRight, .X_WF = {Pose2{0.2, -0.105, 0}, 0.15}},
                     {.side = Side::kLeft, .X_WF = {Pose2{0.4, 0.105, 0}, 0.25}}},
-                   0.24, {}, {});
+                   0.24, {}, std::make_shared<Lipm>());
   const std::array<double, 4> support = {0.0, 0.0, 0.15, 0.15}, swing = {0.0, 0.15, 0.0, 0.25};
   for (size_t k = 0; k < 4; ++k) {
     const PlacedHalfStep& placed = s.half_steps[k];
@@ -104,7 +107,8 @@ TEST(MakeSequence, CarriesTheHeightsOfFootholds) {
 }
 
 TEST(MakeSequence, RefusesNoFootsteps) {
-  EXPECT_THROW(MakeSequence(StandingFeet(), {}, 0.24, {}, {}), std::logic_error);
+  EXPECT_THROW(MakeSequence(StandingFeet(), {}, 0.24, {}, std::make_shared<Lipm>()),
+               std::logic_error);
 }
 
 TEST(SequenceSymmetry, MirroredAndMovedAreWhatTheMirroredAndMovedFootstepsGive) {
@@ -118,13 +122,16 @@ TEST(SequenceSymmetry, MirroredAndMovedAreWhatTheMirroredAndMovedFootstepsGive) 
       moved[k].X_WF = Foothold::Level(X_VW) * footsteps[k].X_WF;
     }
     const auto feet = StandingFeet();
-    const HalfStepSequence plain = MakeSequence(feet, footsteps, 0.24, {}, {});
+    const HalfStepSequence plain =
+        MakeSequence(feet, footsteps, 0.24, {}, std::make_shared<Lipm>());
     const std::array<Foothold, 2> feet_m = {feet[1].Mirrored(), feet[0].Mirrored()};
     const std::array<Foothold, 2> feet_v = {Foothold::Level(X_VW) * feet[0],
                                             Foothold::Level(X_VW) * feet[1]};
     for (const auto& [a, b] :
-         {std::pair{Mirrored(plain), MakeSequence(feet_m, mirrored, 0.24, {}, {})},
-          std::pair{Moved(X_VW, plain), MakeSequence(feet_v, moved, 0.24, {}, {})}}) {
+         {std::pair{Mirrored(plain),
+                    MakeSequence(feet_m, mirrored, 0.24, {}, std::make_shared<Lipm>())},
+          std::pair{Moved(X_VW, plain),
+                    MakeSequence(feet_v, moved, 0.24, {}, std::make_shared<Lipm>())}}) {
       ASSERT_EQ(a.size(), b.size());
       for (size_t k = 0; k < a.half_steps.size(); ++k) {
         EXPECT_EQ(a.half_steps[k].half_step.support, b.half_steps[k].half_step.support);

@@ -1,4 +1,4 @@
-#include "wpg/motion/half_step.h"
+#include "wpg/motion/half_step_tracks.h"
 
 #include <gtest/gtest.h>
 
@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "opt/problem/derivative_check.h"
+#include "wpg/motion/lipm.h"
+#include "wpg/motion/rest_to_rest.h"
 
 namespace halfstep {
 namespace {
@@ -41,33 +43,30 @@ class HalfStepTest : public testing::Test {
     half_step.shape = Shape();
     return half_step;
   }
-  Lipm RandomLipm() { return {.com_height = Uniform(0.6, 1.0)}; }
-  static HalfStepProfiles Profiles(const HalfStep& h, const Lipm& lipm) {
-    return {h.kind, h.shape, h.duration, lipm};
-  }
+  Lipm RandomLipm() { return Lipm(Uniform(0.6, 1.0)); }
 
  private:
   std::mt19937 random_{4};
 };
 
 // 5 profiles × (value, first, second).
-Eigen::VectorXd Stacked(const HalfStepJet& jet) {
+Eigen::VectorXd Stacked(const ProfileJets& jets) {
   Eigen::VectorXd all(15);
   int i = 0;
-  for (const ProfileJet* p : {&jet.com, &jet.zmp, &jet.yaw, &jet.foot, &jet.height}) {
-    all.segment<3>(i) << p->value, p->first, p->second;
+  for (const ProfileJet& p : jets) {
+    all.segment<3>(i) << p.value, p.first, p.second;
     i += 3;
   }
   return all;
 }
 
 // Their derivatives in τ and in T.
-Eigen::MatrixXd Derivatives(const HalfStepJet& jet) {
+Eigen::MatrixXd Derivatives(const ProfileJets& jets) {
   Eigen::MatrixXd all(15, 2);
   int i = 0;
-  for (const ProfileJet* p : {&jet.com, &jet.zmp, &jet.yaw, &jet.foot, &jet.height}) {
-    all.block<3, 1>(i, 0) << p->first, p->second, p->third;
-    all.block<3, 1>(i, 1) << p->value_T, p->first_T, p->second_T;
+  for (const ProfileJet& p : jets) {
+    all.block<3, 1>(i, 0) << p.first, p.second, p.third;
+    all.block<3, 1>(i, 1) << p.value_T, p.first_T, p.second_T;
     i += 3;
   }
   return all;
@@ -79,10 +78,10 @@ TEST_F(HalfStepTest, DerivativesInTimeAndDuration) {
   for (int i = 0; i < 400; ++i) {
     const HalfStep h = Random();
     const Lipm lipm = RandomLipm();
-    const HalfStepProfiles profiles = Profiles(h, lipm);
+    const HalfStepTracks tracks(h, lipm);
     const double tau = Uniform(0, h.duration);
     bool near_knot = false;
-    std::vector<double> knots = profiles.Knots();
+    std::vector<double> knots = tracks.Knots();
     knots.push_back(0.0);
     for (double knot : knots) {
       near_knot = near_knot || std::abs(knot - tau) < 5e-4;
@@ -90,9 +89,11 @@ TEST_F(HalfStepTest, DerivativesInTimeAndDuration) {
     if (near_knot) continue;
     ++checked;
     const auto function = [&](const Eigen::VectorXd& d) {
-      return Stacked(HalfStepProfiles(h.kind, h.shape, h.duration + d[1], lipm).At(tau + d[0]));
+      HalfStep longer = h;
+      longer.duration += d[1];
+      return Stacked(HalfStepTracks(longer, lipm).Profiles(tau + d[0]));
     };
-    const Eigen::MatrixXd jacobian = Derivatives(profiles.At(tau));
+    const Eigen::MatrixXd jacobian = Derivatives(tracks.Profiles(tau));
     const DerivativeReport report = CheckJacobian(function, Eigen::Vector2d::Zero(), jacobian);
     worst = std::max(worst, report.worst_error);
     EXPECT_TRUE(report.Passed(1e-6)) << "tau " << tau << " of " << h.duration << ", shift "
@@ -105,12 +106,14 @@ TEST_F(HalfStepTest, DerivativesInTimeAndDuration) {
 TEST_F(HalfStepTest, OnePercentOrASignInOneDerivativeIsCaught) {
   HalfStep h;
   h.X_SF = Foothold::Level({0.2, -0.21, 0.2});
-  const HalfStepProfiles profiles = Profiles(h, {});
+  const HalfStepTracks tracks(h, Lipm());
   const double tau = 1.5;  // every profile but the ZMP's second rest moves
   const auto function = [&](const Eigen::VectorXd& d) {
-    return Stacked(HalfStepProfiles(h.kind, h.shape, h.duration + d[1], {}).At(tau + d[0]));
+    HalfStep longer = h;
+    longer.duration += d[1];
+    return Stacked(HalfStepTracks(longer, Lipm()).Profiles(tau + d[0]));
   };
-  const Eigen::MatrixXd jacobian = Derivatives(profiles.At(tau));
+  const Eigen::MatrixXd jacobian = Derivatives(tracks.Profiles(tau));
   ASSERT_TRUE(CheckJacobian(function, Eigen::Vector2d::Zero(), jacobian).Passed(1e-6));
   for (int i = 0; i < 15; ++i) {
     for (int j = 0; j < 2; ++j) {
@@ -130,12 +133,12 @@ TEST_F(HalfStepTest, OnePercentOrASignInOneDerivativeIsCaught) {
 TEST_F(HalfStepTest, RestsAtBothEnds) {
   for (int i = 0; i < 300; ++i) {
     const HalfStep h = Random();
-    const HalfStepProfiles profiles = Profiles(h, RandomLipm());
+    const HalfStepTracks tracks(h, RandomLipm());
     for (double end : {0.0, 1.0}) {
       // At the end itself, beyond it, and a microsecond inside.
       const double inside = end == 0.0 ? 1e-9 : h.duration - 1e-9;
       for (double tau : {end * h.duration, 3 * end * h.duration - h.duration, inside}) {
-        const WalkJet x = Evaluate(h, profiles, tau);
+        const WalkJet x = tracks.At(tau);
         const WalkState expected = end == 0.0 ? h.Start() : h.End();
         EXPECT_LT((x.value - expected).cwiseAbs().maxCoeff(), 1e-12);
         EXPECT_LT(std::abs(x.value[kComX] - x.value[kZmpX]), 1e-12);
@@ -183,25 +186,28 @@ TEST_F(HalfStepTest, RestsOnTheSupportPointOnTheSideOfTheSwingFoot) {
 TEST_F(HalfStepTest, TheFootIsInTheAirOnlyWhileTheZmpRestsOnTheSupportSide) {
   for (int i = 0; i < 100; ++i) {
     const HalfStep h = Random();
-    const HalfStepProfiles profiles = Profiles(h, RandomLipm());
+    const Lipm lipm = RandomLipm();
+    const HalfStepTracks tracks(h, lipm);
+    const double bump =
+        RestToRest(lipm.omega() * h.duration, h.shape.shift, h.shape.bump_ramp).bump();
     const bool up = h.kind == HalfStepKind::kUp;
     const int z = FootIndex(h.swing()) + 2;
     for (int k = 1; k < 200; ++k) {
       const double tau = h.duration * k / 200;
-      const WalkJet x = Evaluate(h, profiles, tau);
-      const bool flight = up ? tau > profiles.t2() : tau < profiles.t1();
+      const WalkJet x = tracks.At(tau);
+      const bool flight = up ? tau > tracks.t2() : tau < tracks.t1();
       if (!flight) {
         EXPECT_EQ(x.value[z], 0.0);
       } else {
         EXPECT_GT(x.value[z], 0.0);
         EXPECT_LE(x.value[z], h.via_height);
         // On the support side of the shift: beyond it by the bump at most.
-        const double p = profiles.At(tau).zmp.value;
+        const double p = tracks.of(kZmpX).At(tau).value;
         EXPECT_GE(up ? p : 1 - p, 1.0 - 1e-15);
-        EXPECT_LE(up ? p : 1 - p, 1.0 + profiles.bump() + 1e-15);
+        EXPECT_LE(up ? p : 1 - p, 1.0 + bump + 1e-15);
       }
       const double speed = x.first.segment<2>(FootIndex(h.swing())).norm();
-      if (tau <= profiles.horizontal_begin() || tau >= profiles.horizontal_end()) {
+      if (tau <= tracks.horizontal_begin() || tau >= tracks.horizontal_end()) {
         EXPECT_EQ(speed, 0.0);
       } else {
         EXPECT_GT(speed, 0.0);
@@ -209,10 +215,10 @@ TEST_F(HalfStepTest, TheFootIsInTheAirOnlyWhileTheZmpRestsOnTheSupportSide) {
       EXPECT_TRUE(x.value.segment<4>(FootIndex(h.support)).isZero(0));
     }
     // The delay is kept at the end on the floor.
-    const double delay = up ? profiles.horizontal_begin() - profiles.t2()
-                            : profiles.t1() - profiles.horizontal_end();
+    const double delay =
+        up ? tracks.horizontal_begin() - tracks.t2() : tracks.t1() - tracks.horizontal_end();
     EXPECT_NEAR(delay, h.shape.foot_delay * h.duration, 1e-14);
-    EXPECT_NEAR(up ? profiles.horizontal_end() : profiles.horizontal_begin(), up ? h.duration : 0.0,
+    EXPECT_NEAR(up ? tracks.horizontal_end() : tracks.horizontal_begin(), up ? h.duration : 0.0,
                 1e-15);
   }
 }
@@ -225,8 +231,8 @@ TEST_F(HalfStepTest, DownIsUpInReversedTime) {
     down.kind = HalfStepKind::kDown;
     const Lipm lipm = RandomLipm();
     const double tau = Uniform(0, up.duration);
-    const WalkJet forth = Evaluate(up, Profiles(up, lipm), tau);
-    const WalkJet back = Evaluate(down, Profiles(down, lipm), up.duration - tau);
+    const WalkJet forth = HalfStepTracks(up, lipm).At(tau);
+    const WalkJet back = HalfStepTracks(down, lipm).At(up.duration - tau);
     EXPECT_LT((forth.value - back.value).cwiseAbs().maxCoeff(), 1e-13);
     EXPECT_LT((forth.first + back.first).cwiseAbs().maxCoeff(), 1e-11);
     EXPECT_LT((forth.second - back.second).cwiseAbs().maxCoeff(), 1e-9);
@@ -238,9 +244,9 @@ TEST_F(HalfStepTest, LeftAndRightAreMirrorImagesExactly) {
     const HalfStep h = Random(), m = h.Mirrored();
     EXPECT_EQ(m.support, h.swing());
     EXPECT_EQ(m.Mirrored(), h);
-    const HalfStepProfiles profiles = Profiles(h, RandomLipm());
+    const Lipm lipm = RandomLipm();
     const double tau = Uniform(0, h.duration);
-    const WalkJet a = Evaluate(h, profiles, tau), b = Evaluate(m, profiles, tau);
+    const WalkJet a = HalfStepTracks(h, lipm).At(tau), b = HalfStepTracks(m, lipm).At(tau);
     EXPECT_EQ(b.value, Mirrored(a.value));
     EXPECT_EQ(b.first, Mirrored(a.first));
     EXPECT_EQ(b.second, Mirrored(a.second));
@@ -250,13 +256,15 @@ TEST_F(HalfStepTest, LeftAndRightAreMirrorImagesExactly) {
 TEST_F(HalfStepTest, AScaledDurationKeepsTheFractionsOfTime) {
   const HalfStepShape shape{.shift = 0.05, .foot_delay = 0.1};
   for (HalfStepKind kind : kKinds) {
-    const HalfStepProfiles two(kind, shape, 2.0, {}), three(kind, shape, 3.0, {});
+    const HalfStepTracks two({.kind = kind, .duration = 2.0, .shape = shape}, Lipm());
+    const HalfStepTracks three({.kind = kind, .duration = 3.0, .shape = shape}, Lipm());
     EXPECT_NEAR(two.t1(), 0.95, 1e-15);
     EXPECT_NEAR(two.t2(), 1.05, 1e-15);
     EXPECT_NEAR(three.t1(), 1.425, 1e-15);
     for (double sigma : {0.1, 0.3, 0.6, 0.9}) {  // Smoothsteps do not know of the LIPM.
-      EXPECT_NEAR(two.At(2 * sigma).foot.value, three.At(3 * sigma).foot.value, 1e-15);
-      EXPECT_NEAR(two.At(2 * sigma).height.first, 1.5 * three.At(3 * sigma).height.first, 1e-14);
+      const ProfileJets a = two.Profiles(2 * sigma), b = three.Profiles(3 * sigma);
+      EXPECT_NEAR(a[kFootProfile].value, b[kFootProfile].value, 1e-15);
+      EXPECT_NEAR(a[kLiftProfile].first, 1.5 * b[kLiftProfile].first, 1e-14);
     }
   }
 }
@@ -266,13 +274,14 @@ TEST_F(HalfStepTest, RefusesADelayThatLeavesNoTimeToMove) {
   for (const auto& [shift, delay] : {std::pair{0.5, 0.3}, {0.4, 0.3}, {0.05, 0.31}, {0.05, -0.1}}) {
     const HalfStepShape shape{.shift = shift, .foot_delay = delay};
     for (HalfStepKind kind : kKinds) {
-      EXPECT_THROW(HalfStepProfiles(kind, shape, 2.0, {}), std::logic_error) << shift;
+      EXPECT_THROW(HalfStepTracks({.kind = kind, .shape = shape}, Lipm()), std::logic_error)
+          << shift;
     }
   }
   // The longest one allowed still lets the foot arrive.
-  const HalfStepProfiles profiles(HalfStepKind::kUp, {.shift = 0.5, .foot_delay = 0.22}, 2.0, {});
-  EXPECT_GT(profiles.horizontal_end(), profiles.horizontal_begin());
-  EXPECT_NEAR(profiles.At(2.0 - 1e-6).foot.value, 1.0, 1e-9);
+  const HalfStepTracks tracks({.shape = {.shift = 0.5, .foot_delay = 0.22}}, Lipm());
+  EXPECT_GT(tracks.horizontal_end(), tracks.horizontal_begin());
+  EXPECT_NEAR(tracks.Profiles(2.0 - 1e-6)[kFootProfile].value, 1.0, 1e-9);
 }
 
 }  // namespace

@@ -5,7 +5,8 @@
 #include <optional>
 #include <random>
 
-#include "wpg/motion/half_step.h"
+#include "wpg/motion/half_step_tracks.h"
+#include "wpg/motion/lipm.h"
 #include "wpg/motion/rest_to_rest.h"
 #include "wpg/motion/smoothstep.h"
 
@@ -132,13 +133,16 @@ TEST(ProfileBounds, HalfStepSecondsHoldInLocalTime) {
                               .lift_share = Uniform(random, 0.2, 1.0)};
     const HalfStepKind kind = i % 2 == 0 ? HalfStepKind::kUp : HalfStepKind::kDown;
     const double duration = Uniform(random, 0.4, 4.0);
-    const HalfStepProfiles profiles(kind, shape, duration, {});
+    HalfStep half_step{.kind = kind, .duration = duration, .shape = shape};
+    half_step.X_SF = Foothold::Level({0.2, -0.2, 0.3});
+    const HalfStepTracks tracks(half_step, Lipm());
     const Window window(random);
-    const HalfStepJet bounds = profiles.SecondBounds(window.from * duration, window.to * duration);
-    for (int quantity : {kComX, kZmpX, kWaistYaw, kLeftX, kLeftZ}) {
+    WalkState bounds = WalkState::Zero();
+    tracks.AddSecondBounds(window.from * duration, window.to * duration, &bounds);
+    for (int quantity : {kComX, kZmpX, kWaistYaw, kRightX, kRightZ}) {
       const double sup =
-          window.Sup([&](double x) { return profiles.At(x * duration).of(quantity).second; });
-      ASSERT_LE(sup, bounds.of(quantity).second * (1 + 1e-9) + 1e-9)
+          window.Sup([&](double x) { return tracks.At(x * duration).second[quantity]; });
+      ASSERT_LE(sup, bounds[quantity] * (1 + 1e-9) + 1e-9)
           << quantity << " on [" << window.from << ", " << window.to << "]";
     }
   }
@@ -147,10 +151,10 @@ TEST(ProfileBounds, HalfStepSecondsHoldInLocalTime) {
 // Regression: an interval that ends at a knot took the piece beyond it along where rounding put its
 // end behind the knot.
 TEST(ProfileBounds, ThirdsOfAnIntervalThatEndsAtAKnotAreNotThoseBeyond) {
-  const HalfStepProfiles up(HalfStepKind::kUp, HalfStepShape{.foot_delay = 0.2}, 0.75, {});
+  const HalfStepTracks up({.duration = 0.75, .shape = {.foot_delay = 0.2}}, Lipm());
   const double knot = up.horizontal_begin();
   const auto farthest = [&](double to) {
-    const Range foot = up.ThirdRanges(knot - 1e-4, to).foot;
+    const Range foot = up.of(kRightX).ThirdRange(knot - 1e-4, to);
     return std::abs(foot.center) + foot.radius;
   };
   for (const double to : {knot, std::nextafter(knot, 1.0), knot + 1e-13}) {

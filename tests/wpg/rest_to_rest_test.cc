@@ -118,7 +118,7 @@ TEST_F(RestToRestTest, IsAntisymmetric) {
 
 // Figures of wpg/README.md: about 18, 9 and 5 % for z_c = 0.8 m.
 TEST_F(RestToRestTest, BumpOfThreeDurations) {
-  const double omega = Lipm{.com_height = 0.8}.omega();
+  const double omega = Lipm(0.8).omega();
   for (const auto& [duration, percent] : {std::pair{1.6, 18}, {2.0, 9}, {2.4, 5}}) {
     const RestToRest shift(omega * duration, 0.1 / duration);
     EXPECT_NEAR(100 * shift.bump(), percent, 0.6) << duration;

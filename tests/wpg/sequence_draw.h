@@ -10,6 +10,7 @@
 #include "tests/wpg/hrp2.h"
 #include "wpg/geometry/foothold.h"
 #include "wpg/motion/half_step_sequence.h"
+#include "wpg/motion/lipm.h"
 
 namespace halfstep {
 
@@ -57,7 +58,7 @@ class SequenceDraw {
                               .foot_ramp = Form(0, 1) < 0.5 ? 0.5 : Form(0.1, 0.5),
                               .lift_share = Form(0, 1) < 0.5 ? 1.0 : Form(0.3, 1.0),
                               .support_point = Form(-0.03, 0.06)};
-    const Lipm lipm{.com_height = Uniform(0.6, 1.0)};
+    const auto lipm = std::make_shared<Lipm>(Uniform(0.6, 1.0));
     return Moved(Pose(2.0, 3.0), MakeSequence(StandingFeet(), Footsteps(steps), 0.24, shape, lipm));
   }
 

@@ -1,5 +1,7 @@
 #include "wpg/motion/half_step_sequence.h"
 
+#include <utility>
+
 #include "wpg/check.h"
 #include "wpg/nth.h"
 
@@ -7,9 +9,11 @@ namespace halfstep {
 
 HalfStepSequence MakeSequence(const std::array<Foothold, 2>& start,
                               const std::vector<Footstep>& footsteps, double via_lateral,
-                              const HalfStepShape& shape, const Lipm& lipm) {
+                              const HalfStepShape& shape,
+                              std::shared_ptr<const MotionModel> model) {
   HALFSTEP_CHECK(!footsteps.empty(), "no footsteps");
-  HalfStepSequence sequence{.start = start, .half_steps = {}, .lipm = lipm};
+  HALFSTEP_CHECK(model != nullptr, "no model");
+  HalfStepSequence sequence{.start = start, .half_steps = {}, .model = std::move(model)};
   std::array<Foothold, 2> feet = start;
   for (const Footstep& footstep : footsteps) {
     const Side swing = footstep.side;

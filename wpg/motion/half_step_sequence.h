@@ -1,12 +1,13 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "wpg/geometry/foothold.h"
 #include "wpg/geometry/side.h"
 #include "wpg/motion/half_step.h"
-#include "wpg/motion/lipm.h"
+#include "wpg/motion/motion_model.h"
 
 namespace halfstep {
 
@@ -30,7 +31,7 @@ struct PlacedHalfStep {
 struct HalfStepSequence {
   std::array<Foothold, 2> start;           ///< soles at the start, by Index(Side); yaws unwrapped.
   std::vector<PlacedHalfStep> half_steps;  ///< n ≥ 2, even.
-  Lipm lipm;                               ///< of all half-steps
+  std::shared_ptr<const MotionModel> model;  ///< of all half-steps; never null
 
   int size() const { return static_cast<int>(half_steps.size()); }  ///< n
   int num_steps() const { return size() / 2; }                      ///< n/2
@@ -41,7 +42,7 @@ struct HalfStepSequence {
 /// and `shape` hold for all half-steps. Precondition: at least one footstep (std::logic_error).
 HalfStepSequence MakeSequence(const std::array<Foothold, 2>& start,
                               const std::vector<Footstep>& footsteps, double via_lateral,
-                              const HalfStepShape& shape, const Lipm& lipm);
+                              const HalfStepShape& shape, std::shared_ptr<const MotionModel> model);
 
 /// The same plan seen in a mirror (xz plane of W).
 HalfStepSequence Mirrored(const HalfStepSequence& sequence);

@@ -1,18 +1,34 @@
 #pragma once
 
 #include <cmath>
+#include <memory>
+
+#include "wpg/motion/motion_model.h"
+#include "wpg/robot/gravity.h"
 
 namespace halfstep {
 
 /// Linear inverted pendulum: a CoM at constant height z_c over a flat floor, no angular momentum
-/// about it. Per horizontal axis c̈ = ω²·(c − p), or p = Z(c) with Z = Id − (z_c/g)·d²/dt².
+/// about it. Per horizontal axis c̈ = ω²·(c − p), or p = Z(c) with Z = Id − (z_c/g)·d²/dt². Its
+/// half-steps go by RestToRest, whose CoM is at rest at both ends, exactly.
 /// Source: [Kajita2001] eq. 4; [Perrin2011] §III.
-struct Lipm {
-  double com_height = 0.8;  ///< z_c [m] > 0.
-  double gravity = 9.81;    ///< g [m/s²] > 0.
+class Lipm final : public MotionModel {
+ public:
+  /// z_c [m] > 0
+  explicit Lipm(double com_height = 0.8) : com_height_(com_height) {}
 
+  double com_height() const { return com_height_; }  ///< z_c [m]
   /// ω = √(g/z_c) [1/s].
-  double omega() const { return std::sqrt(gravity / com_height); }
+  double omega() const { return std::sqrt(kGravity / com_height_); }
+
+  /// Precondition: ω·T ∈ [0.5, 60], shift and bump_ramp in their ranges (std::logic_error).
+  Proposal Propose(HalfStepKind kind, const HalfStepShape& shape, double duration) const override;
+  Eigen::Vector2d ComAcceleration(const WalkJet& jet) const override;
+  Eigen::Vector2d ComJerk(const WalkJet& jet) const override;
+  std::vector<std::pair<std::string_view, double>> numbers() const override;
+
+ private:
+  double com_height_;
 };
 
 }  // namespace halfstep

@@ -5,12 +5,12 @@
 #include <numbers>
 
 #include "wpg/files/text.h"
+#include "wpg/robot/gravity.h"
 #include "wpg/robot/robot_legs.h"
 
 namespace halfstep {
 namespace {
 
-constexpr double kGravity = 9.81;               // [m/s²]
 constexpr double kTimes = 10.0;                 // what counts as beyond all use
 constexpr double kOfATurn = 0.99;               // a range of so much of a whole turn is none
 constexpr double kTurn = 2 * std::numbers::pi;  // [rad]
