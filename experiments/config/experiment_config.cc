@@ -228,7 +228,7 @@ void DeclareFilesThere(Fields& fields, const ExperimentConfig& config) {
 
 std::vector<KeyDescription> ConfigKeys(Methods methods) {
   ExperimentConfig config;
-  config.smoothing.known = std::move(methods);
+  SetKnown(std::move(methods), &config.smoothing);
   std::vector<KeyDescription> keys =
       DescribeKeys([&config](Fields& fields) { DeclareFields(fields, &config); });
   DescribeScaling(&keys);
@@ -244,7 +244,7 @@ ExperimentConfig ParseConfig(const std::string& path, const std::string& text,
                              const std::vector<YamlOverride>& overrides, Methods methods) {
   const std::filesystem::path file(path);
   ExperimentConfig config;
-  config.smoothing.known = std::move(methods);
+  SetKnown(std::move(methods), &config.smoothing);
   config.name = file.stem().string();
   ReadYamlText(text, path, file.parent_path().string(), overrides, [&](Fields& fields) {
     DeclareFields(fields, &config);

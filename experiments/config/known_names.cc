@@ -2,8 +2,6 @@
 
 #include "planner/search/planner_registry.h"
 #include "smoothing/margins/family_traits.h"
-#include "smoothing/margins/own_margin.h"
-#include "smoothing/program/walk_cost.h"
 
 namespace halfstep {
 
@@ -13,21 +11,19 @@ KnownNames NamesOfConfigs(const Methods& methods) {
                    .planners = PlannerNames(),
                    .weights = {"com_acceleration", "com_jerk", "foot_speed"},
                    .own_margin = std::string(Traits(MarginFamily::kOwn).key),
-                   .has_own_margins = !OwnMargins().empty()};
+                   .has_own_margins = !methods.own_margins().empty()};
   for (const DeclaredGroup& group : methods.OwnGroups()) names.own_options.push_back(group.key);
-  for (const auto& cost : WalkCosts()) names.weights.emplace_back(cost->name());
+  for (const WeightedWalkCost& own : methods.own_costs()) {
+    names.weights.push_back(own.cost->name());
+  }
   return names;
 }
 
 std::vector<NamedDemand> NamedDemands(const MarginLimits& limits) {
   std::vector<NamedDemand> demands;
-  const auto add = [&](MarginFamily family) {
-    demands.push_back({std::string(Name(family)), limits.demanded_of(family), Scale(family)});
-  };
   for (const MarginFamily family : AllMarginFamilies()) {
-    if (family != MarginFamily::kOwn) add(family);
+    demands.push_back({std::string(Name(family)), limits.demanded_of(family), Scale(family)});
   }
-  add(MarginFamily::kOwn);
   return demands;
 }
 

@@ -14,9 +14,9 @@ struct KnownNames {
   std::vector<std::string> planners;     ///< of `planner.name`
   std::vector<std::string> weights;      ///< keys of `smoothing.optimizer.weights`
   std::string own_margin;                ///< key under `smoothing.margins` of the family `own`
-  bool has_own_margins = false;          ///< whether a margin is registered, and that key is read
+  bool has_own_margins = false;          ///< whether there is one, and that key is read
 };
-/// With these methods, and with what is registered now: programs register more while they run.
+/// With these methods, and with the planners that are registered now.
 KnownNames NamesOfConfigs(const Methods& methods = Methods::Standard());
 
 /// What a config demands of a margin family.
@@ -25,7 +25,7 @@ struct NamedDemand {
   double demanded = 0.0;  ///< [its unit]; kNotDemanded: nothing
   double scale = 1.0;     ///< what counts as a clear change of the margin [its unit]
 };
-/// Of every family, in their order; `own` is the last, whether a margin is registered or not.
+/// Of every family, in their order; `own` is the last, whether a margin was added or not.
 std::vector<NamedDemand> NamedDemands(const MarginLimits& limits);
 
 }  // namespace halfstep

@@ -1,8 +1,10 @@
 #include "experiments/config/smoothing_config.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "smoothing/margins/family_traits.h"
+#include "smoothing/methods/solver_method_options.h"
 #include "wpg/files/text.h"
 
 namespace halfstep {
@@ -50,7 +52,7 @@ void DeclareLimits(Fields& fields, MarginLimits* l) {
 }
 
 void DeclareMargins(Fields& fields, MarginLimits* l) {
-  for (const MarginFamily family : AllMarginFamilies()) {
+  for (const MarginFamily family : FamiliesWith(l->own)) {
     const FamilyTraits& traits = Traits(family);
     const NumberSpec spec{
         .meaning = traits.meaning.data(),
@@ -88,6 +90,12 @@ void DeclareOwn(Fields& fields, SmoothingConfig* c) {
 }
 
 }  // namespace
+
+void SetKnown(Methods known, SmoothingConfig* config) {
+  config->limits.own = known.own_margins();
+  config->options.Edit(OptimizerGroup()).options.program.own_costs = known.own_costs();
+  config->known = std::move(known);
+}
 
 void DeclareSmoothing(Fields& fields, SmoothingConfig* c) {
   fields.Texts("methods", &c->methods,

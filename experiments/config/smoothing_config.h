@@ -27,7 +27,7 @@ struct GivenWalkFiles {
 
 /// The group `smoothing`: the methods, and what they have to keep.
 struct SmoothingConfig {
-  Methods known = Methods::Standard();               ///< those that `methods` may name
+  Methods known = Methods::Standard();  ///< those that `methods` may name; set by SetKnown
   std::vector<std::string> methods = {"dichotomy"};  ///< in the order in which they run
   std::string acceptance = "certified";  ///< "certified" or "sampled": how a method accepts a walk
   double sampling = 0.005;               ///< period of acceptance `sampled` [s]
@@ -41,6 +41,9 @@ struct SmoothingConfig {
   GivenWalkFiles given;                  ///< of the method `given`
   MarginLimits limits;                   ///< limits and demanded margins
 };
+
+/// Makes a config's methods, and the margins and costs of one's own, those that a program has.
+void SetKnown(Methods known, SmoothingConfig* config);
 
 /// Declares the keys of the group.
 void DeclareSmoothing(Fields& fields, SmoothingConfig* config);

@@ -26,17 +26,19 @@ class Lift : public WalkCost {
 };
 
 int main() {
-  RegisterWalkCost(std::make_shared<Lift>());
+  Methods methods = Methods::Standard();
+  methods.AddCost(std::make_shared<Lift>());
   for (const char* weight : {"0", "5"}) {
     const ExperimentConfig config = LoadConfig((DataFolder() / "configs/bar_8cm.yaml").string(),
                                                {{"smoothing.optimizer.program", "smooth"},
                                                 {"smoothing.optimizer.heights", "true"},
                                                 {"smoothing.optimizer.weights.lift", weight},
-                                                {"smoothing.optimizer.rounds", "4"}});
+                                                {"smoothing.optimizer.rounds", "4"}},
+                                               methods);
     const WalkProblem problem = ProblemOf(Prepare(config));
     SmoothingMonitor monitor;
     const SmoothingResult result =
-        Methods::Standard().Find("halfstep/sqp").Smooth(problem, OptionsOf(config), monitor);
+        methods.Find("halfstep/sqp").Smooth(problem, OptionsOf(config), monitor);
     const SuperposedWalk walk(problem.sequence(), result.parameters);
     std::printf("weight %s s/m: %.3f s, feet lifted by %.3f m in all\n", weight, walk.duration(),
                 Lift().Evaluate(walk, nullptr));

@@ -30,14 +30,16 @@ class ComSpeed : public OwnStatement {
 
 int main(int argc, char** argv) {
   const bool limited = argc < 2 || std::string(argv[1]) != "without";
-  if (limited) RegisterOwnMargin(std::make_unique<ComSpeed>());
-  if (argc > 2) return RunExperiment(argc, argv);  // `run CONFIG` keeps it, too
-  const ExperimentConfig config = LoadConfig((DataFolder() / "configs/bar_8cm.yaml").string(),
-                                             {{"smoothing.optimizer.all_families", "false"}});
+  Methods methods = Methods::Standard();
+  if (limited) methods.AddMargin(std::make_shared<ComSpeed>());
+  if (argc > 2) return RunExperiment(argc, argv, methods);  // `run CONFIG` keeps it, too
+  const ExperimentConfig config =
+      LoadConfig((DataFolder() / "configs/bar_8cm.yaml").string(),
+                 {{"smoothing.optimizer.all_families", "false"}}, methods);
   const WalkProblem problem = ProblemOf(Prepare(config));
   SmoothingMonitor monitor;
   const SmoothingResult result =
-      Methods::Standard().Find("halfstep/sqp").Smooth(problem, OptionsOf(config), monitor);
+      methods.Find("halfstep/sqp").Smooth(problem, OptionsOf(config), monitor);
   const SuperposedWalk walk(problem.sequence(), result.parameters);
   double fastest = 0.0;
   for (double t = 0.0; t < walk.duration(); t += 0.001) {

@@ -229,7 +229,7 @@ void DeclareFields(Fields& fields, LiveConfig* config, const Scene* scene) {
 
 std::vector<KeyDescription> EpisodeKeys(Methods methods) {
   LiveConfig config;
-  config.experiment.smoothing.known = std::move(methods);
+  SetKnown(std::move(methods), &config.experiment.smoothing);
   std::vector<KeyDescription> keys =
       DescribeKeys([&config](Fields& fields) { DeclareFields(fields, &config); });
   DescribeScaling(&keys);
@@ -247,7 +247,7 @@ LiveConfig ParseLiveConfig(const std::string& path, const std::string& text,
   const std::filesystem::path file(path);
   LiveConfig config;
   config.experiment.name = file.stem().string();
-  config.experiment.smoothing.known = std::move(methods);
+  SetKnown(std::move(methods), &config.experiment.smoothing);
   ReadYamlText(text, path, file.parent_path().string(), overrides, [&](Fields& fields) {
     DeclareFields(fields, &config, scene);
     config.experiment.directory = fields.directory();

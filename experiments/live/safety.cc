@@ -15,9 +15,7 @@ std::vector<MarginFamily> Families(bool of_world) {
 
 }  // namespace
 
-bool DependsOnWorld(MarginFamily family) {
-  return family == MarginFamily::kClearance || family == MarginFamily::kNoStep;
-}
+bool DependsOnWorld(MarginFamily family) { return Traits(family).scope == MarginScope::kScene; }
 
 SafetyCheck::SafetyCheck(const RobotModel& robot, const Scene& scene,
                          const ExperimentConfig& config)

@@ -45,7 +45,7 @@ py::tuple WatchedRows(const HeldProgram& held) {
   py::list half_steps, families;
   for (int row = 0; row < watched.rows(); ++row) {
     half_steps.append(watched.half_step_of(row) + 1);
-    families.append(std::string(Name(WatchedInstants::family_of(row))));
+    families.append(std::string(Name(watched.family_of(row))));
   }
   return py::make_tuple(half_steps, families);
 }

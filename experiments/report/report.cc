@@ -17,6 +17,7 @@
 #include "experiments/tables/csv_reader.h"
 #include "experiments/tables/json_file.h"
 #include "opt/solvers/ending.h"
+#include "smoothing/margins/demandable.h"
 #include "smoothing/margins/family_traits.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/number_text.h"
@@ -49,19 +50,21 @@ json FamilyJson(MarginFamily family) {
 }
 
 // Those that every robot has.
-json FamiliesJson() {
+json FamiliesJson(const Methods& methods) {
   json families = json::array();
-  for (const MarginFamily family : AllMarginFamilies()) {
+  for (const MarginFamily family : FamiliesWith(methods.own_margins())) {
     if (!Traits(family).for_some_robots) families.push_back(FamilyJson(family));
   }
   return families;
 }
 
-// Adds the family that only some robots have, if this one does.
-void AddAccelerations(const RobotModel& robot, json* report) {
-  if (!StatesAccelerationLimits(robot)) return;
-  IndexIn(&(*report)["families"], FamilyJson(MarginFamily::kJointAcceleration));
-  (*report)["statement"] = CertificateStatement(robot);
+// Adds the families that only some robots have, if this one does.
+void AddFamilies(const RobotModel& robot, json* report) {
+  for (const MarginFamily family : AllMarginFamilies()) {
+    if (!Traits(family).for_some_robots || !WhyNotDemandable(family, robot).empty()) continue;
+    IndexIn(&(*report)["families"], FamilyJson(family));
+  }
+  if (StatesAccelerationLimits(robot)) (*report)["statement"] = CertificateStatement(robot);
 }
 
 // What is shown of each status.
@@ -71,9 +74,9 @@ json EndingsJson() {
   return endings;
 }
 
-json EmptyReport(const char* kind) {
+json EmptyReport(const char* kind, const Methods& methods) {
   return {{"kind", kind},
-          {"families", FamiliesJson()},
+          {"families", FamiliesJson(methods)},
           {"endings", EndingsJson()},
           {"statement", kCertificateStatement},
           {"robots", json::array()},
@@ -92,7 +95,7 @@ Eigen::Vector2d MiddleOf(const fs::path& footsteps) {
 
 json CaseOf(const std::string& scenario, const fs::path& run, const RobotModel& robot,
             const Scene& scene, json* report) {
-  AddAccelerations(robot, report);
+  AddFamilies(robot, report);
   return {
       {"scenario", scenario},
       {"robot", IndexIn(&(*report)["robots"], RobotJson(robot))},
@@ -234,7 +237,7 @@ Place PlaceOfRun(const fs::path& run, const Methods& methods) {
 std::string RunReport(const RobotModel& robot, const Scene& scene, const fs::path& folder,
                       const Methods& methods) {
   const json manifest = ReadJsonObject(folder / "manifest.json");
-  json report = EmptyReport("run");
+  json report = EmptyReport("run", methods);
   for (const char* key : {"name", "version", "commit", "objective", "acceptance"}) {
     if (!manifest.contains(key)) {
       throw InputError({(folder / "manifest.json").string() + ": no '" + key + "'"});
@@ -273,7 +276,7 @@ std::string ComparisonReport(const Comparison& comparison, const Methods& method
   for (const ComparedCase& one : comparison.cases) {
     for (const ComparedMethod& method : one.methods) total += method.record.duration;
   }
-  json report = EmptyReport("comparison");
+  json report = EmptyReport("comparison", methods);
   report["profiles"] = ProfilesJson(comparison);
   for (const ComparedCase& one : comparison.cases) {
     report["cases"].push_back(CaseOf(one, SpacingFor(total), methods, &report));

@@ -1,59 +1,37 @@
 #include "experiments/run/margin_words.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
+#include "smoothing/margins/family_traits.h"
 #include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {
 
-// "RLEG_LINK5" and "bar" of "RLEG_LINK5 - bar".
-struct Pair {
-  std::string first, second;
-};
-
-Pair PairOf(const std::string& subject) {
-  const size_t dash = subject.find(" - ");
-  if (dash == std::string::npos) return {subject, "something"};
-  return {subject.substr(0, dash), subject.substr(dash + 3)};
+// A sentence with what it names in place of the names in braces.
+std::string Filled(std::string_view sentence,
+                   const std::vector<std::pair<std::string_view, std::string>>& words) {
+  std::string text(sentence);
+  for (const auto& [name, word] : words) {
+    const size_t place = text.find(name);
+    if (place != std::string::npos) text.replace(place, name.size(), word);
+  }
+  return text;
 }
 
 // What the value says of distances, else of a limit.
 std::string ValueWords(const Margin& margin, const std::string& subject) {
-  const std::string unit(Unit(margin.family));
-  const std::string amount = Amount(std::abs(margin.value), unit);
-  const bool missed = margin.value < 0.0;
-  switch (margin.family) {
-    case MarginFamily::kClearance:
-    case MarginFamily::kSelfClearance: {
-      const Pair pair = PairOf(subject);
-      return pair.first + " is " + amount + (missed ? " inside " : " from ") + pair.second;
-    }
-    case MarginFamily::kGround:
-      return subject + " is " + amount + (missed ? " below" : " above") + " the floor";
-    case MarginFamily::kReach:
-      return "the " + subject + " is " + amount + (missed ? " too short" : " from stretched");
-    case MarginFamily::kFloor:
-      return "the " + subject + " is only " + amount + " high while it moves";
-    case MarginFamily::kZmp:
-    case MarginFamily::kZmpRobot:
-      return (margin.family == MarginFamily::kZmp ? "the ZMP is " : "the robot's ZMP is ") +
-             amount + (missed ? " outside" : " inside") + " the support polygon";
-    case MarginFamily::kFriction:
-      return "what the " + subject + (missed ? " needs is " : " needs leaves ") + amount +
-             (missed ? " above the floor's friction" : " of the floor's friction");
-    case MarginFamily::kFootSpeed:
-    case MarginFamily::kFootYawRate:
-    case MarginFamily::kJoint:
-    case MarginFamily::kJointSpeed:
-    case MarginFamily::kNoStep:
-    case MarginFamily::kTorque:
-    case MarginFamily::kJointAcceleration:
-    case MarginFamily::kOwn:
-      break;
-  }
-  return std::string(Name(margin.family)) + " of " + subject + ": " + amount +
-         (missed ? " beyond its limit" : " inside its limit");
+  const FamilyTraits& traits = Traits(margin.family);
+  const size_t dash = std::min(subject.find(" - "), subject.size());
+  return Filled(margin.value < 0.0 ? traits.sentence.beyond : traits.sentence.inside,
+                {{"{family}", std::string(traits.name)},
+                 {"{amount}", Amount(std::abs(margin.value), traits.unit)},
+                 {"{subject}", subject},
+                 {"{first}", subject.substr(0, dash)},
+                 {"{second}", dash < subject.size() ? subject.substr(dash + 3) : "something"}});
 }
 
 }  // namespace
@@ -73,9 +51,7 @@ std::string MissedWords(const MarginEvaluator& evaluator, const Margin& margin) 
   const std::string of = std::string(Name(margin.family)) + " of " + subject;
   if (std::isnan(margin.value)) return of + " could not be decided";
   if (std::isinf(margin.value)) {
-    return of + (margin.family == MarginFamily::kFriction
-                     ? " cannot be enough: the robot's ZMP is not inside the soles"
-                     : " cannot be told: a leg does not reach");
+    return of + std::string(Traits(margin.family).untold.of_plan);
   }
   std::string words = ValueWords(margin, subject);
   const double demanded = evaluator.limits().demanded_of(margin.family);

@@ -1,97 +1,137 @@
-#include "smoothing/margins/clearance_margin.h"
-
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "smoothing/margins/family_class.h"
 #include "wpg/nth.h"
 
 namespace halfstep {
+namespace {
 
-int ClearanceMargin::count() const { return static_cast<int>(place_.robot.bodies.size()); }
+// Distance from a body of the robot to the obstacles where they are said to be at that time, less
+// how far from there they may be [m]; at most the clearance horizon; −∞ when a leg does not reach.
+// Proved body by body: over an interval each obstacle takes off its own speed times the half
+// width. Subject: index of RobotModel::bodies. Other: the obstacle.
+class ClearanceMargin final : public MarginStatements {
+ public:
+  static constexpr FamilyTraits kTraits = {
+      .family = MarginFamily::kClearance,
+      .name = "clearance",
+      .unit = "m",
+      .key = "clearance_m",
+      .meaning = "robot to obstacles",
+      .remedy = "a higher `half_step.via_height_m`, other footsteps, an obstacle elsewhere",
+      .sentence = {"{first} is {amount} from {second}", "{first} is {amount} inside {second}"},
+      .coverage = kAlwaysCovered,
+      .scope = MarginScope::kScene,
+      .scale = 0.01,
+      .demanded = 0.005,
+      .raised = true,
+      .cost = MarginCost::kObstacles,
+      .row = MarginFamily::kClearance,
+  };
 
-std::string ClearanceMargin::Subject(const Margin& margin) const {
-  const std::string body = BodyName(place_.robot, margin.subject);
-  return margin.other < 0 ? body : body + " - " + Nth(place_.scene.obstacles, margin.other).name;
-}
+  explicit ClearanceMargin(const MarginPlace& place) : MarginStatements(kTraits), place_(place) {}
 
-Margin ClearanceMargin::Least(Instant* at, double enough) const {
-  if (!at->reachable()) return Of(-std::numeric_limits<double>::infinity(), -1);
-  const double horizon = std::min(enough, ClearanceHorizon(at->limits()));
-  return place_.clearances.NearestObstacle(at->posture(), at->t(), horizon, &at->scratch().bodies);
-}
+  int count() const override { return static_cast<int>(place_.robot.bodies.size()); }
 
-std::optional<Margin> ClearanceMargin::FirstBelow(Instant* at, double demanded) const {
-  if (!at->reachable()) return Of(-std::numeric_limits<double>::infinity(), -1);
-  return place_.clearances.FirstBodyBelow(at->posture(), at->t(), demanded, &at->scratch().bodies);
-}
-
-void ClearanceMargin::AddBelow(Instant* at, double demanded, std::vector<Margin>* below) const {
-  if (!at->reachable()) return below->push_back(Of(-std::numeric_limits<double>::infinity(), -1));
-  const BodyClearances& clearances = place_.clearances;
-  BodyClearances::Scratch& scratch = at->scratch().bodies;
-  for (size_t b = 0; b < clearances.num_bodies(); ++b) {
-    if (clearances.BodyClears(b, at->posture(), at->t(), demanded, &scratch)) continue;
-    below->push_back(clearances.OfBody(b, at->posture(), at->t(), demanded, &scratch));
+  std::string Subject(const Margin& margin) const override {
+    const std::string body = BodyName(place_.robot, margin.subject);
+    return margin.other < 0 ? body : body + " - " + Nth(place_.scene.obstacles, margin.other).name;
   }
-}
 
-void ClearanceMargin::AddRows(Instant* at, SlackSink* rows) const {
-  if (!at->regular()) return;
-  const Posture& posture = at->posture();
-  const BodyClearances& clearances = place_.clearances;
-  BodyClearances::Scratch& scratch = at->scratch().bodies;
-  const double far = rows->horizon();
-  for (size_t b = 0; b < place_.robot.bodies.size(); ++b) {
-    if (clearances.BodyClears(b, posture, at->t(), far, &scratch)) continue;
-    const auto nearest = clearances.NearestTo(b, posture, at->t(), far, &scratch);
-    if (nearest.obstacle < 0) continue;
-    const Separation& gap = nearest.separation;
-    const auto derivative = [&](size_t i) {
-      return gap.normal_W.dot(
-          PointTangent(place_.robot.bodies[b], posture, rows->tangents[i], gap.point_a_W));
-    };
-    // As time goes on the obstacle moves, and what is known of it changes.
-    const Obstacle& obstacle = Nth(place_.scene.obstacles, nearest.obstacle);
-    const Eigen::Vector3d velocity =
-        obstacle.motion.VelocityAt(obstacle.X_WO, at->t(), gap.point_b_W);
-    const double rate = -gap.normal_W.dot(velocity) - obstacle.motion.UncertaintyRateAt(at->t());
-    rows->Add(nearest.margin, derivative, rate);
+  std::vector<Side> PlacedFeet(const Margin& margin) const override {
+    const bool rests = margin.other >= 0 && Nth(place_.scene.obstacles, margin.other).rests();
+    return rests ? FootOf(place_.robot, margin.subject) : std::vector<Side>();
   }
-}
 
-Margin ClearanceMargin::OfGroup(uint16_t body) const { return Of(std::nan(""), body); }
+  Margin Least(Instant* at, double enough) const override {
+    if (!at->reachable()) return Of(-kUnlimited, -1);
+    const double horizon = std::min(enough, ClearanceHorizon(at->limits()));
+    return place_.clearances.NearestObstacle(at->posture(), at->t(), horizon,
+                                             &at->scratch().bodies);
+  }
 
-FamilyProof ClearanceMargin::Prove(const MarginInterval& interval,
-                                   std::vector<uint16_t>* open) const {
-  const BodyClearances& clearances = place_.clearances;
-  const Posture& posture = interval.motion.posture;
-  BodyClearances::Scratch& scratch = interval.mid.scratch().bodies;
-  const double demanded = interval.mid.demanded(family());
-  const double rounding = interval.mid.rounding();
-  const double horizon = interval.mid.limits().clearance_horizon;
-  const double t = interval.mid.t();
-  const double half_width = interval.motion.half_width;
-  FamilyProof proof;
-  std::erase_if(*open, [&](uint16_t body) {
-    if (proof.violated) return false;
-    const double bound = interval.motion.displacement[body] + rounding;  // of the body alone
-    if (clearances.BodyClears(body, posture, t, demanded + bound, &scratch, half_width)) {
-      if (interval.with_margins) {
-        const double enough = std::max(horizon, demanded + bound + rounding);
-        const Margin margin = clearances.OfBody(body, posture, t, enough, &scratch, half_width);
-        const double of_obstacle =
-            margin.other < 0 ? 0.0 : clearances.obstacle_speed(margin.other) * half_width;
-        proof.held.Add(margin, bound + of_obstacle);
+  std::optional<Margin> FirstBelow(Instant* at, double demanded) const override {
+    if (!at->reachable()) return Of(-kUnlimited, -1);
+    return place_.clearances.FirstBodyBelow(at->posture(), at->t(), demanded,
+                                            &at->scratch().bodies);
+  }
+
+  void AddBelow(Instant* at, double demanded, std::vector<Margin>* below) const override {
+    if (!at->reachable()) return below->push_back(Of(-kUnlimited, -1));
+    const BodyClearances& clearances = place_.clearances;
+    BodyClearances::Scratch& scratch = at->scratch().bodies;
+    for (size_t b = 0; b < clearances.num_bodies(); ++b) {
+      if (clearances.BodyClears(b, at->posture(), at->t(), demanded, &scratch)) continue;
+      below->push_back(clearances.OfBody(b, at->posture(), at->t(), demanded, &scratch));
+    }
+  }
+
+  void AddRows(Instant* at, SlackSink* rows) const override {
+    if (!at->regular()) return;
+    const Posture& posture = at->posture();
+    const BodyClearances& clearances = place_.clearances;
+    BodyClearances::Scratch& scratch = at->scratch().bodies;
+    const double far = rows->horizon();
+    for (size_t b = 0; b < place_.robot.bodies.size(); ++b) {
+      if (clearances.BodyClears(b, posture, at->t(), far, &scratch)) continue;
+      const auto nearest = clearances.NearestTo(b, posture, at->t(), far, &scratch);
+      if (nearest.obstacle < 0) continue;
+      const Separation& gap = nearest.separation;
+      const auto derivative = [&](size_t i) {
+        return gap.normal_W.dot(
+            PointTangent(place_.robot.bodies[b], posture, rows->tangents[i], gap.point_a_W));
+      };
+      // As time goes on the obstacle moves, and what is known of it changes.
+      const Obstacle& obstacle = Nth(place_.scene.obstacles, nearest.obstacle);
+      const Eigen::Vector3d velocity =
+          obstacle.motion.VelocityAt(obstacle.X_WO, at->t(), gap.point_b_W);
+      const double rate = -gap.normal_W.dot(velocity) - obstacle.motion.UncertaintyRateAt(at->t());
+      rows->Add(nearest.margin, derivative, rate);
+    }
+  }
+
+  int groups() const override { return count(); }
+
+  Margin OfGroup(uint16_t body) const override { return Of(std::nan(""), body); }
+
+  FamilyProof Prove(const MarginInterval& interval, std::vector<uint16_t>* open) const override {
+    const BodyClearances& clearances = place_.clearances;
+    const Posture& posture = interval.motion.posture;
+    BodyClearances::Scratch& scratch = interval.mid.scratch().bodies;
+    const double demanded = interval.mid.demanded(family());
+    const double rounding = interval.mid.rounding();
+    const double horizon = interval.mid.limits().clearance_horizon;
+    const double t = interval.mid.t();
+    const double half_width = interval.motion.half_width;
+    FamilyProof proof;
+    std::erase_if(*open, [&](uint16_t body) {
+      if (proof.violated) return false;
+      const double bound = interval.motion.displacement[body] + rounding;  // of the body alone
+      if (clearances.BodyClears(body, posture, t, demanded + bound, &scratch, half_width)) {
+        if (interval.with_margins) {
+          const double enough = std::max(horizon, demanded + bound + rounding);
+          const Margin margin = clearances.OfBody(body, posture, t, enough, &scratch, half_width);
+          const double of_obstacle =
+              margin.other < 0 ? 0.0 : clearances.obstacle_speed(margin.other) * half_width;
+          proof.held.Add(margin, bound + of_obstacle);
+        }
+        return true;
       }
-      return true;
-    }
-    if (!clearances.BodyClears(body, posture, t, demanded, &scratch)) {
-      proof.violated = clearances.OfBody(body, posture, t, 1.0, &scratch);
-    }
-    return false;
-  });
-  return proof;
-}
+      if (!clearances.BodyClears(body, posture, t, demanded, &scratch)) {
+        proof.violated = clearances.OfBody(body, posture, t, 1.0, &scratch);
+      }
+      return false;
+    });
+    return proof;
+  }
+
+ private:
+  const MarginPlace& place_;
+};
+
+}  // namespace
+
+const FamilyClass& ClassOf(TagOf<ClearanceMargin>) { return kClassOf<ClearanceMargin>; }
 
 }  // namespace halfstep

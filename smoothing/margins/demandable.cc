@@ -1,19 +1,11 @@
 #include "smoothing/margins/demandable.h"
 
-#include "wpg/robot/acceleration_limits.h"
-#include "wpg/robot/torque_limits.h"
+#include "smoothing/margins/family_traits.h"
 
 namespace halfstep {
 
 std::string WhyNotDemandable(MarginFamily family, const RobotModel& robot) {
-  if (family == MarginFamily::kZmpRobot || family == MarginFamily::kFriction) {
-    return robot.masses.fault;
-  }
-  if (family == MarginFamily::kTorque) return TorqueFault(robot);
-  if (family == MarginFamily::kJointAcceleration && !StatesAccelerationLimits(robot)) {
-    return "the robot file states no limits (`acceleration_limits_rad_s2`)";
-  }
-  return "";
+  return Traits(family).coverage.why_not_demandable(robot);
 }
 
 MarginLimits Demandable(MarginLimits limits, const RobotModel& robot) {

@@ -1,10 +1,13 @@
 #pragma once
 
 #include <optional>
-#include <span>
+#include <string>
 #include <string_view>
 
+#include "planner/scene/scene.h"
 #include "smoothing/margins/margin.h"
+#include "wpg/robot/not_covered.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 
@@ -18,7 +21,63 @@ enum class MarginCost : int {
   kPairs,        ///< distances of bodies to each other
 };
 
-/// What a family is called and how it is used. Each class of a family has one as `kTraits`.
+/// A margin as a sentence, for people. It may name {family}, {subject}, the {amount} with its unit,
+/// and of a subject like "RLEG_LINK5 - bar" the {first} and the {second}.
+struct MarginSentence {
+  std::string_view inside;  ///< for values ≥ 0
+  std::string_view beyond;  ///< for values < 0
+};
+/// That of families that keep something inside a limit.
+inline constexpr MarginSentence kOfALimit = {"{family} of {subject}: {amount} inside its limit",
+                                             "{family} of {subject}: {amount} beyond its limit"};
+
+/// Why a family cannot be told where its margin is −∞.
+struct Untold {
+  std::string_view at_instant;  ///< " cannot be told, since …,", as MarginEvaluator::Describe says
+  std::string_view of_plan;     ///< the same of a plan, in few words: " cannot be told: …"
+};
+/// That of families that need the legs' joints.
+inline constexpr Untold kNeedsLegs = {
+    " cannot be told, since a leg does not reach or is stretched,",
+    " cannot be told: a leg does not reach"};
+/// That of families that also need what the floor gives.
+inline constexpr Untold kNeedsGround = {
+    " cannot be told, since the soles cannot give what the motion needs or a leg does not reach,",
+    kNeedsLegs.of_plan};
+
+/// Why a robot's files do not let anything be demanded of a family, as a sentence without subject;
+/// "" where they let it be.
+using DemandFault = std::string (*)(const RobotModel& robot);
+/// Of families that any robot lets be demanded.
+inline std::string AlwaysDemandable(const RobotModel&) { return ""; }
+/// Of families that need the masses of all links.
+inline std::string NeedsMasses(const RobotModel& robot) { return robot.masses.fault; }
+
+/// What a family assumes of a scene that does not say it, as a certificate lists it.
+using Assumption = std::optional<NotCovered> (*)(const Scene& scene);
+/// Of families that assume nothing.
+inline std::optional<NotCovered> AssumesNothing(const Scene&) { return std::nullopt; }
+
+/// What a certificate does not cover of a family.
+struct FamilyCoverage {
+  DemandFault why_not_demandable = nullptr;  ///< of a robot
+  /// The limit without which every margin is +∞, where a config may say that there is none.
+  std::optional<double> MarginLimits::*limit = nullptr;
+  Assumption assumes = AssumesNothing;  ///< of a scene
+};
+/// That of families that every robot, config and scene has all for.
+inline constexpr FamilyCoverage kAlwaysCovered = {.why_not_demandable = AlwaysDemandable};
+/// That of families that need the masses of all links.
+inline constexpr FamilyCoverage kCoveredWithMasses = {.why_not_demandable = NeedsMasses};
+
+/// What the margins of a walk rest on beside the walk itself.
+enum class MarginScope : int {
+  kRobot = 1,  ///< robot and floor
+  kScene,      ///< also what is known of the scene, which may change while one walks
+};
+
+/// What a family is called and how it is used. Each class of a family has one as `kTraits`, which
+/// leaves out nothing that has no default here (IsComplete).
 struct FamilyTraits {
   MarginFamily family;       ///< of which this is told
   std::string_view name;     ///< in YAML, CSV and certificates
@@ -26,6 +85,9 @@ struct FamilyTraits {
   std::string_view key;      ///< under `smoothing.margins`: the name and, by its unit, an ending
   std::string_view meaning;  ///< of the key
   std::string_view remedy;   ///< what may help a planned motion that misses the demand
+  MarginSentence sentence;   ///< what its values say
+  FamilyCoverage coverage;   ///< what is not covered of it
+  MarginScope scope;         ///< on what it rests
   double scale;              ///< what counts as a clear change of the margin [its unit]
   double demanded;           ///< by default [its unit]
   bool raised;      ///< whether the program `safest` raises it, not only keeps what is demanded
@@ -38,12 +100,19 @@ struct FamilyTraits {
   /// Whether only some robots have it (MarginStatements::present): then a config that is written
   /// back has its key only where something else than `demanded` is demanded.
   bool for_some_robots = false;
+  Untold untold = kNeedsLegs;  ///< where it is −∞
 };
+
+/// Whether traits leave out nothing that has no default.
+constexpr bool IsComplete(const FamilyTraits& t) {
+  const bool named = !t.name.empty() && !t.unit.empty() && t.key.starts_with(t.name);
+  const bool told = !t.meaning.empty() && !t.remedy.empty() && !t.sentence.inside.empty() &&
+                    !t.sentence.beyond.empty();
+  return named && told && t.coverage.why_not_demandable != nullptr && t.scope != MarginScope{} &&
+         t.scale > 0.0;
+}
 
 /// The traits of a family.
 const FamilyTraits& Traits(MarginFamily family);
-
-/// All families, those that need little work first.
-std::span<const MarginFamily> FamiliesByCost();
 
 }  // namespace halfstep

@@ -1,35 +1,55 @@
-#include "smoothing/margins/floor_margin.h"
-
-#include <cmath>
+#include "smoothing/margins/family_class.h"
+#include "smoothing/margins/swing_foot_family.h"
 
 namespace halfstep {
+namespace {
 
-int FloorMargin::count() const { return 1; }
+// Height of the swing sole above the floor while it moves horizontally [m]. Before its horizontal
+// motion begins and after it ends, the foot may touch the floor and the margin is +∞. Subject:
+// Index(Side).
+class FloorMargin final : public SwingFootFamily<FloorMargin> {
+ public:
+  static constexpr FamilyTraits kTraits = {
+      .family = MarginFamily::kFloor,
+      .name = "floor",
+      .unit = "m",
+      .key = "floor_m",
+      .meaning = "height of the sole while it moves horizontally",
+      .remedy = "a higher `half_step.via_height_m`, a longer `half_step.foot_delay`",
+      .sentence = {"the {subject} is only {amount} high while it moves",
+                   "the {subject} is only {amount} high while it moves"},
+      .coverage = kAlwaysCovered,
+      .scope = MarginScope::kRobot,
+      .scale = 0.01,
+      .demanded = 0.005,
+      .raised = false,
+      .cost = MarginCost::kWalk,
+      .row = MarginFamily::kFloor,
+  };
 
-std::string FloorMargin::Subject(const Margin& margin) const { return FootName(margin); }
+  explicit FloorMargin(const MarginPlace& place)
+      : SwingFootFamily(kTraits), floor_(place.scene.ground->Floor()) {}
 
-Margin FloorMargin::Least(Instant* at, double) const {
-  Margin least = Of(kUnlimited, -1);
-  const int step = at->step_in_air();
-  if (step >= 0 && at->walk().MovesHorizontally(step, at->at())) {
-    Lower(Of(at->jet().value[FootIndex(at->swing()) + 2] - floor_, Index(at->swing())), &least);
+  bool Watches(const Instant& at) const {
+    return at.walk().MovesHorizontally(at.step_in_air(), at.at());
   }
-  return least;
-}
+  double Value(const Instant& at) const { return at.jet().value[Height(at)] - floor_; }
+  void AddRow(Instant* at, SlackSink* rows) const {
+    const int z = Height(*at);
+    rows->Add(Value(*at), [&](size_t i) { return rows->sensitivities[i].jet.value[z]; });
+  }
+  double Change(const MarginInterval& interval) const {
+    return interval.motion.Change(Height(interval.mid));
+  }
 
-void FloorMargin::AddRows(Instant* at, SlackSink* rows) const {
-  const int step = at->step_in_air();
-  if (step < 0 || !at->walk().MovesHorizontally(step, at->at())) return;
-  const int z = FootIndex(at->swing()) + 2;
-  rows->Add(at->jet().value[z] - floor_,
-            [&](size_t i) { return rows->sensitivities[i].jet.value[z]; });
-}
+ private:
+  static int Height(const Instant& at) { return FootIndex(at.swing()) + 2; }
 
-void FloorMargin::AddBounds(const MarginInterval& interval, TightestStatement* tightest) const {
-  const Margin margin = Least(&interval.mid, kUnlimited);
-  const bool moves = margin.subject >= 0;
-  const int z = moves ? FootIndex(interval.mid.swing()) + 2 : 0;
-  tightest->Add(margin, (moves ? interval.motion.Change(z) : 0.0) + interval.mid.rounding());
-}
+  double floor_;  // [m]
+};
+
+}  // namespace
+
+const FamilyClass& ClassOf(TagOf<FloorMargin>) { return kClassOf<FloorMargin>; }
 
 }  // namespace halfstep

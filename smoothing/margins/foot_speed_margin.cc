@@ -1,42 +1,57 @@
-#include "smoothing/margins/foot_speed_margin.h"
+#include "smoothing/margins/family_class.h"
+#include "smoothing/margins/swing_foot_family.h"
 
 namespace halfstep {
+namespace {
 
-int FootSpeedMargin::count() const { return 1; }
+// Limit − speed of the swing sole's centre [m/s]; +∞ without a limit and while both feet stand.
+// Subject: Index(Side).
+class FootSpeedMargin final : public SwingFootFamily<FootSpeedMargin> {
+ public:
+  static constexpr FamilyTraits kTraits = {
+      .family = MarginFamily::kFootSpeed,
+      .name = "foot_speed",
+      .unit = "m/s",
+      .key = "foot_speed_m_s",
+      .meaning = "inside the foot speed limit",
+      .remedy = "a longer `half_step.duration_s`, shorter steps",
+      .sentence = kOfALimit,
+      .coverage = {.why_not_demandable = AlwaysDemandable, .limit = &MarginLimits::foot_speed},
+      .scope = MarginScope::kRobot,
+      .scale = 0.1,
+      .demanded = 0.0,
+      .raised = true,
+      .cost = MarginCost::kWalk,
+      .row = MarginFamily::kFootSpeed,
+  };
 
-std::string FootSpeedMargin::Subject(const Margin& margin) const { return FootName(margin); }
+  explicit FootSpeedMargin(const MarginPlace&) : SwingFootFamily(kTraits) {}
 
-Margin FootSpeedMargin::Least(Instant* at, double) const {
-  Margin least = Of(kUnlimited, -1);
-  const std::optional<double>& limit = at->limits().foot_speed;
-  if (at->step_in_air() < 0 || !limit) return least;
-  const Side swing = at->swing();
-  const double speed = at->jet().first.segment<3>(FootIndex(swing)).norm();
-  Lower(Of(*limit - speed, Index(swing)), &least);
-  return least;
-}
-
-void FootSpeedMargin::AddRows(Instant* at, SlackSink* rows) const {
-  const std::optional<double>& limit = at->limits().foot_speed;
-  if (at->step_in_air() < 0 || !limit) return;
-  const int foot = FootIndex(at->swing());
-  const Eigen::Vector3d velocity = at->jet().first.segment<3>(foot);
-  const double speed = velocity.norm();
-  if (speed <= 1e-6) return;
-  rows->Add(*limit - speed, [&](size_t i) {
-    return -velocity.dot(rows->sensitivities[i].jet.first.segment<3>(foot)) / speed;
-  });
-}
-
-void FootSpeedMargin::AddBounds(const MarginInterval& interval, TightestStatement* tightest) const {
-  const Margin margin = Least(&interval.mid, kUnlimited);
-  const IntervalMotion& motion = interval.motion;
-  double change = 0.0;
-  if (margin.subject >= 0) {
-    const int foot = FootIndex(interval.mid.swing());
-    change = motion.half_width * motion.second.segment<3>(foot).norm();
+  bool Watches(const Instant& at) const { return at.limits().foot_speed.has_value(); }
+  double Value(const Instant& at) const {
+    return *at.limits().foot_speed - Velocity(at.jet(), at).norm();
   }
-  tightest->Add(margin, change + interval.mid.rounding());
-}
+  void AddRow(Instant* at, SlackSink* rows) const {
+    const Eigen::Vector3d velocity = Velocity(at->jet(), *at);
+    const double speed = velocity.norm();
+    if (speed <= 1e-6) return;
+    rows->Add(*at->limits().foot_speed - speed, [&](size_t i) {
+      return -velocity.dot(Velocity(rows->sensitivities[i].jet, *at)) / speed;
+    });
+  }
+  double Change(const MarginInterval& interval) const {
+    const IntervalMotion& motion = interval.motion;
+    return motion.half_width * motion.second.segment<3>(FootIndex(interval.mid.swing())).norm();
+  }
+
+ private:
+  static Eigen::Vector3d Velocity(const WalkJet& jet, const Instant& at) {
+    return jet.first.segment<3>(FootIndex(at.swing()));
+  }
+};
+
+}  // namespace
+
+const FamilyClass& ClassOf(TagOf<FootSpeedMargin>) { return kClassOf<FootSpeedMargin>; }
 
 }  // namespace halfstep

@@ -1,42 +1,57 @@
-#include "smoothing/margins/foot_yaw_rate_margin.h"
-
 #include <cmath>
 
+#include "smoothing/margins/family_class.h"
+#include "smoothing/margins/swing_foot_family.h"
+
 namespace halfstep {
+namespace {
 
-int FootYawRateMargin::count() const { return 1; }
+// Limit − |yaw rate| of the swing sole [rad/s]; +∞ without a limit and while both feet stand.
+// Subject: Index(Side).
+class FootYawRateMargin final : public SwingFootFamily<FootYawRateMargin> {
+ public:
+  static constexpr FamilyTraits kTraits = {
+      .family = MarginFamily::kFootYawRate,
+      .name = "foot_yaw_rate",
+      .unit = "rad/s",
+      .key = "foot_yaw_rate_rad_s",
+      .meaning = "inside the foot yaw rate limit",
+      .remedy = "a longer `half_step.duration_s`, steps that turn less",
+      .sentence = kOfALimit,
+      .coverage = {.why_not_demandable = AlwaysDemandable, .limit = &MarginLimits::foot_yaw_rate},
+      .scope = MarginScope::kRobot,
+      .scale = 0.2,
+      .demanded = 0.0,
+      .raised = false,
+      .cost = MarginCost::kWalk,
+      .row = MarginFamily::kFootYawRate,
+  };
 
-std::string FootYawRateMargin::Subject(const Margin& margin) const { return FootName(margin); }
+  explicit FootYawRateMargin(const MarginPlace&) : SwingFootFamily(kTraits) {}
 
-Margin FootYawRateMargin::Least(Instant* at, double) const {
-  Margin least = Of(kUnlimited, -1);
-  const std::optional<double>& limit = at->limits().foot_yaw_rate;
-  if (at->step_in_air() < 0 || !limit) return least;
-  const double rate = at->jet().first[FootIndex(at->swing()) + 3];
-  Lower(Of(*limit - std::abs(rate), Index(at->swing())), &least);
-  return least;
-}
-
-void FootYawRateMargin::AddRows(Instant* at, SlackSink* rows) const {
-  const std::optional<double>& limit = at->limits().foot_yaw_rate;
-  if (at->step_in_air() < 0 || !limit) return;
-  const int yaw = FootIndex(at->swing()) + 3;
-  const double rate = at->jet().first[yaw];
-  if (rate == 0.0) return;
-  rows->Add(*limit - std::abs(rate), [&](size_t i) {
-    const double change = rows->sensitivities[i].jet.first[yaw];
-    return rate < 0.0 ? change : -change;
-  });
-}
-
-void FootYawRateMargin::AddBounds(const MarginInterval& interval,
-                                  TightestStatement* tightest) const {
-  const Margin margin = Least(&interval.mid, kUnlimited);
-  double change = 0.0;
-  if (margin.subject >= 0) {
-    change = interval.motion.RateChange(FootIndex(interval.mid.swing()) + 3);
+  bool Watches(const Instant& at) const { return at.limits().foot_yaw_rate.has_value(); }
+  double Value(const Instant& at) const {
+    return *at.limits().foot_yaw_rate - std::abs(at.jet().first[Yaw(at)]);
   }
-  tightest->Add(margin, change + interval.mid.rounding());
-}
+  void AddRow(Instant* at, SlackSink* rows) const {
+    const int yaw = Yaw(*at);
+    const double rate = at->jet().first[yaw];
+    if (rate == 0.0) return;
+    rows->Add(Value(*at), [&](size_t i) {
+      const double change = rows->sensitivities[i].jet.first[yaw];
+      return rate < 0.0 ? change : -change;
+    });
+  }
+  double Change(const MarginInterval& interval) const {
+    return interval.motion.RateChange(Yaw(interval.mid));
+  }
+
+ private:
+  static int Yaw(const Instant& at) { return FootIndex(at.swing()) + 3; }
+};
+
+}  // namespace
+
+const FamilyClass& ClassOf(TagOf<FootYawRateMargin>) { return kClassOf<FootYawRateMargin>; }
 
 }  // namespace halfstep

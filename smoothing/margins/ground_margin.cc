@@ -1,65 +1,104 @@
-#include "smoothing/margins/ground_margin.h"
-
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "smoothing/margins/family_class.h"
 #include "wpg/nth.h"
 
 namespace halfstep {
+namespace {
 
-int GroundMargin::count() const { return static_cast<int>(place_.robot.bodies.size()); }
+// Height of a body's lowest point above the floor [m]; −∞ when a leg does not reach. A body on a
+// foot may touch the floor (BodyHeights). Subject: index of RobotModel::bodies.
+class GroundMargin final : public WholeFamily {
+ public:
+  static constexpr FamilyTraits kTraits = {
+      .family = MarginFamily::kGround,
+      .name = "ground",
+      .unit = "m",
+      .key = "ground_m",
+      .meaning = "lowest point of a body above the floor; feet may touch it",
+      .remedy =
+          "a higher `half_step.via_height_m`, or knees that are bent less (`standing_posture_deg` "
+          "of the robot file)",
+      .sentence = {"{subject} is {amount} above the floor",
+                   "{subject} is {amount} below the floor"},
+      .coverage = kAlwaysCovered,
+      .scope = MarginScope::kRobot,
+      .scale = 0.01,
+      .demanded = 0.0,
+      .raised = false,
+      .cost = MarginCost::kJointSpeeds,
+      .row = MarginFamily::kFloor,
+  };
 
-std::string GroundMargin::Subject(const Margin& margin) const {
-  return BodyName(place_.robot, margin.subject);
-}
+  explicit GroundMargin(const MarginPlace& place) : WholeFamily(kTraits), place_(place) {}
 
-Margin GroundMargin::Least(Instant* at, double enough) const {
-  if (!at->reachable()) return Of(-std::numeric_limits<double>::infinity(), -1);
-  return place_.heights.Least(at->posture(), at->jet().value, enough);
-}
+  int count() const override { return static_cast<int>(place_.robot.bodies.size()); }
 
-void GroundMargin::AddRows(Instant* at, SlackSink* rows) const {
-  if (!at->regular()) return;
-  const Posture& posture = at->posture();
-  for (int b : place_.heights.of_legs()) {
-    if (place_.heights.LowestPossible(b, posture) > rows->horizon()) continue;
-    const RobotBody& body = Nth(place_.robot.bodies, b);
-    const Eigen::Vector3d lowest = place_.heights.LowestPoint(b, posture);
-    rows->Add(lowest.z() - place_.heights.floor(),
-              [&](size_t i) { return PointTangent(body, posture, rows->tangents[i], lowest).z(); });
+  std::string Subject(const Margin& margin) const override {
+    return BodyName(place_.robot, margin.subject);
   }
-}
 
-void GroundMargin::AddBounds(const MarginInterval& interval, TightestStatement* tightest) const {
-  const BodyHeights& heights = place_.heights;
-  const IntervalMotion& motion = interval.motion;
-  const WalkState& x = motion.jet.value;
-  const double h = motion.half_width, t = interval.mid.t();
-  const double rounding = interval.mid.rounding();
-  const int step = interval.mid.step_in_air();
-  for (int body : heights.on_feet()) {
-    const Side side = static_cast<Side>(Nth(place_.robot.bodies, body).leg);
-    const int z = FootIndex(side) + 2;
-    double least = x[z] - heights.floor() - motion.Change(z);
-    if (step >= 0 && interval.mid.swing() == side) {
-      least =
-          std::max(least, interval.mid.walk().LeastHeight(step, t - h, t + h) - heights.floor());
+  std::vector<Side> PlacedFeet(const Margin& margin) const override {
+    return FootOf(place_.robot, margin.subject);
+  }
+
+  Margin Least(Instant* at, double enough) const override {
+    if (!at->reachable()) return Of(-kUnlimited, -1);
+    return place_.heights.Least(at->posture(), at->jet().value, enough);
+  }
+
+  void AddRows(Instant* at, SlackSink* rows) const override {
+    if (!at->regular()) return;
+    const Posture& posture = at->posture();
+    for (int b : place_.heights.of_legs()) {
+      if (place_.heights.LowestPossible(b, posture) > rows->horizon()) continue;
+      const RobotBody& body = Nth(place_.robot.bodies, b);
+      const Eigen::Vector3d lowest = place_.heights.LowestPoint(b, posture);
+      rows->Add(lowest.z() - place_.heights.floor(), [&](size_t i) {
+        return PointTangent(body, posture, rows->tangents[i], lowest).z();
+      });
     }
-    // On the floor or above it for all t, below it at the midpoint, or neither is known.
-    const double margin = heights.OnFoot(body, x);
-    const bool open = least < -kSoleRounding && margin > 0.0;
-    tightest->Add(Of(open ? std::nan("") : margin, body), rounding);
   }
-  for (int body : heights.of_legs()) {
-    const double change = Nth(motion.displacement, body);
-    const double possible = heights.LowestPossible(body, motion.posture);
-    if (tightest->Pass(possible - change - rounding)) continue;
-    tightest->Add(Of(heights.LowestPoint(body, motion.posture).z() - heights.floor(), body),
-                  change + rounding);
+
+ protected:
+  void AddBounds(const MarginInterval& interval, TightestStatement* tightest) const override {
+    const BodyHeights& heights = place_.heights;
+    const IntervalMotion& motion = interval.motion;
+    const WalkState& x = motion.jet.value;
+    const double h = motion.half_width, t = interval.mid.t();
+    const double rounding = interval.mid.rounding();
+    const int step = interval.mid.step_in_air();
+    for (int body : heights.on_feet()) {
+      const Side side = static_cast<Side>(Nth(place_.robot.bodies, body).leg);
+      const int z = FootIndex(side) + 2;
+      double least = x[z] - heights.floor() - motion.Change(z);
+      if (step >= 0 && interval.mid.swing() == side) {
+        least =
+            std::max(least, interval.mid.walk().LeastHeight(step, t - h, t + h) - heights.floor());
+      }
+      // On the floor or above it for all t, below it at the midpoint, or neither is known.
+      const double margin = heights.OnFoot(body, x);
+      const bool open = least < -kSoleRounding && margin > 0.0;
+      tightest->Add(Of(open ? std::nan("") : margin, body), rounding);
+    }
+    for (int body : heights.of_legs()) {
+      const double change = Nth(motion.displacement, body);
+      const double possible = heights.LowestPossible(body, motion.posture);
+      if (tightest->Pass(possible - change - rounding)) continue;
+      tightest->Add(Of(heights.LowestPoint(body, motion.posture).z() - heights.floor(), body),
+                    change + rounding);
+    }
+    tightest->Add(Of(heights.of_waist().value, heights.of_waist().subject), rounding);
+    tightest->count = count();  // the lowest of the waist's bodies for all
   }
-  tightest->Add(Of(heights.of_waist().value, heights.of_waist().subject), rounding);
-  tightest->count = count();  // the lowest of the waist's bodies for all
-}
+
+ private:
+  const MarginPlace& place_;
+};
+
+}  // namespace
+
+const FamilyClass& ClassOf(TagOf<GroundMargin>) { return kClassOf<GroundMargin>; }
 
 }  // namespace halfstep

@@ -1,10 +1,11 @@
-#include "smoothing/margins/joint_acceleration_margin.h"
-
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <optional>
+#include <string>
 #include <vector>
 
+#include "smoothing/margins/family_class.h"
+#include "smoothing/margins/joint_family.h"
 #include "wpg/motion/dynamics_slope.h"
 #include "wpg/nth.h"
 #include "wpg/robot/acceleration_limits.h"
@@ -12,13 +13,14 @@
 namespace halfstep {
 namespace {
 
-int AccelerationSubject(Side side, Eigen::Index joint) {
-  return 6 * Index(side) + static_cast<int>(joint);
+std::string StatesNoLimits(const RobotModel& robot) {
+  if (StatesAccelerationLimits(robot)) return "";
+  return "the robot file states no limits (`acceleration_limits_rad_s2`)";
 }
 
-// ∂q̈/∂parameter of both legs by Index(Side), along each parameter.
-std::vector<std::array<Vector6d, 2>> AccelerationSlopes(Instant* at, const SlackSink& rows) {
-  std::vector<std::array<Vector6d, 2>> slopes;
+// ∂q̈/∂parameter along each parameter.
+std::vector<ByLegs> AccelerationSlopes(Instant* at, const SlackSink& rows) {
+  std::vector<ByLegs> slopes;
   for (size_t i = 0; i < rows.sensitivities.size(); ++i) {
     const PostureTangent& tangent = rows.tangents[i];
     const DynamicsSlope slope(at->robot(), at->jet(), at->posture(), *at->motion(),
@@ -28,74 +30,89 @@ std::vector<std::array<Vector6d, 2>> AccelerationSlopes(Instant* at, const Slack
   return slopes;
 }
 
-}  // namespace
+// Limit − |q̈| of a leg joint [rad/s²]; +∞ for a joint of which the robot file states no limit; −∞
+// when a leg does not reach or is stretched to the singularity. Subject: 6·Index(Side) + joint.
+// Present where the robot file states a limit of any leg joint; where nothing is demanded
+// (kNotDemanded) it has no rows, and its proofs say nothing. Masses need not be known. Source:
+// wpg/README.md, "Dynamics of the whole robot"; smoothing/README.md, "Joint accelerations between
+// instants".
+class JointAccelerationMargin final : public JointSizeFamily<JointAccelerationMargin> {
+ public:
+  static constexpr FamilyTraits kTraits = {
+      .family = MarginFamily::kJointAcceleration,
+      .name = "joint_acceleration",
+      .unit = "rad/s²",
+      .key = "joint_acceleration_rad_s2",
+      .meaning =
+          "inside the acceleration limits of the legs' joints, where the robot file states these; "
+          "none: not demanded",
+      .remedy =
+          "a longer `half_step.duration_s`, shorter steps, a lower `half_step.via_height_m`; "
+          "`acceleration_limits_rad_s2` of the robot file says what the joints are allowed",
+      .sentence = kOfALimit,
+      .coverage = {.why_not_demandable = StatesNoLimits},
+      .scope = MarginScope::kRobot,
+      .scale = 5.0,
+      .demanded = 0.0,
+      .raised = true,
+      .cost = MarginCost::kJointSpeeds,
+      // A row of its own would be there for robots without limits, too.
+      .row = MarginFamily::kJointSpeed,
+      .may_be_none = true,
+      .most = 500.0,
+      .for_some_robots = true,
+  };
 
-JointAccelerationMargin::JointAccelerationMargin(const MarginPlace& place)
-    : WholeFamily(kTraits), place_(place), present_(StatesAccelerationLimits(place.robot)) {}
+  explicit JointAccelerationMargin(const MarginPlace& place)
+      : JointSizeFamily(kTraits, place), present_(StatesAccelerationLimits(place.robot)) {}
 
-std::string JointAccelerationMargin::Subject(const Margin& margin) const {
-  return JointName(place_.robot, margin);
-}
+  bool present() const override { return present_; }
+  int count() const override { return present_ ? 12 : 0; }
+  int groups() const override { return present_ ? 1 : 0; }
 
-double JointAccelerationMargin::Limit(Side side, Eigen::Index joint) const {
-  return Nth(Nth(place_.robot.legs, Index(side)).joints, joint).max_acceleration;
-}
+  static std::optional<ByLegs> ValuesAt(Instant* at) {
+    const RobotDynamics* motion = at->motion();
+    if (motion == nullptr) return std::nullopt;
+    return ByLegs{motion->accelerations(Side::kLeft), motion->accelerations(Side::kRight)};
+  }
+  static double Limit(const Instant&, const LegJoint& joint) { return joint.max_acceleration; }
+  static const ByLegs& Slopes(Instant* at, const SlackSink& rows, size_t i,
+                              std::vector<ByLegs>* made) {
+    if (made->empty()) *made = AccelerationSlopes(at, rows);
+    return (*made)[i];
+  }
 
-Margin JointAccelerationMargin::Least(Instant* at, double) const {
-  if (!present_) return Of(kUnlimited, -1);
-  const RobotDynamics* motion = at->motion();
-  if (motion == nullptr) return Of(-kUnlimited, -1);
-  Margin least = Of(kUnlimited, -1);
-  for (const Side side : {Side::kLeft, Side::kRight}) {
-    const Vector6d& accelerations = motion->accelerations(side);
-    for (Eigen::Index j = 0; j < 6; ++j) {
-      Lower(Of(Limit(side, j) - std::abs(accelerations[j]), AccelerationSubject(side, j)), &least);
+ protected:
+  void AddBounds(const MarginInterval& interval, TightestStatement* tightest) const override {
+    Instant& mid = interval.mid;
+    if (mid.demanded(family()) == kNotDemanded) {
+      for (int i = 0; i < count(); ++i) tightest->Add(Of(kUnlimited, i), 0.0);
+      return;
     }
-  }
-  return least;
-}
-
-void JointAccelerationMargin::AddRows(Instant* at, SlackSink* rows) const {
-  if (!present_ || at->demanded(family()) == kNotDemanded) return;
-  const RobotDynamics* motion = at->motion();
-  if (motion == nullptr) return;
-  std::vector<std::array<Vector6d, 2>> slopes;  // made when a row needs them
-  for (const Side side : {Side::kLeft, Side::kRight}) {
-    const Vector6d& accelerations = motion->accelerations(side);
-    for (Eigen::Index j = 0; j < 6; ++j) {
-      const double sign = accelerations[j] < 0.0 ? -1.0 : 1.0;
-      rows->Add(Limit(side, j) - std::abs(accelerations[j]), [&](size_t i) {
-        if (slopes.empty()) slopes = AccelerationSlopes(at, *rows);
-        return -sign * Nth(slopes[i], Index(side))[j];
-      });
+    const std::optional<ByLegs> accelerations = ValuesAt(&mid);
+    const Margin least = accelerations ? LeastOf(mid, *accelerations) : Of(-kUnlimited, -1);
+    if (!(least.value >= mid.demanded(family()))) {  // no bound changes that
+      tightest->Add(least, 0.0);
+      return;
     }
-  }
-}
-
-void JointAccelerationMargin::AddBounds(const MarginInterval& interval,
-                                        TightestStatement* tightest) const {
-  Instant& mid = interval.mid;
-  if (mid.demanded(family()) == kNotDemanded) {
-    for (int i = 0; i < count(); ++i) tightest->Add(Of(kUnlimited, i), 0.0);
-    return;
-  }
-  const Margin least = Least(&mid, kUnlimited);
-  if (!(least.value >= mid.demanded(family()))) {  // no bound changes that
-    tightest->Add(least, 0.0);
-    return;
-  }
-  for (const Side side : {Side::kLeft, Side::kRight}) {
-    const size_t s = static_cast<size_t>(Index(side));
-    const Vector6d& accelerations = mid.motion()->accelerations(side);
-    for (Eigen::Index j = 0; j < 6; ++j) {
-      const double here = std::abs(accelerations[j]);
+    ForEachJoint([&](size_t s, int j, const LegJoint& joint, int subject) {
+      const double here = std::abs((*accelerations)[s][j]);
       const double drift = Nth(interval.drift().legs[s].joints, j).acceleration_drift;
       // |q̈| grows by no more than q̈ drifts, and to no more than it can be.
       const double rise = interval.motion.joints[s].acceleration[j] - here;
-      tightest->Add(Of(Limit(side, j) - here, AccelerationSubject(side, j)),
-                    std::max(0.0, std::min(drift, rise)) + place_.rounding.acceleration);
-    }
+      tightest->Add(Of(Limit(mid, joint) - here, subject),
+                    std::max(0.0, std::min(drift, rise)) + place().rounding.acceleration);
+    });
   }
+
+ private:
+  const bool present_;
+};
+
+}  // namespace
+
+const FamilyClass& ClassOf(TagOf<JointAccelerationMargin>) {
+  return kClassOf<JointAccelerationMargin>;
 }
 
 }  // namespace halfstep

@@ -1,61 +1,77 @@
-#include "smoothing/margins/joint_margin.h"
-
 #include <algorithm>
 #include <cmath>
 
-#include "wpg/nth.h"
+#include "smoothing/margins/family_class.h"
+#include "smoothing/margins/joint_family.h"
 
 namespace halfstep {
+namespace {
 
-int JointMargin::count() const { return 12; }
+// Distance of a joint's angle to the nearer of its two limits [rad]; −∞ when its leg does not
+// reach. Subject: 6·Index(Side) + joint.
+class JointMargin final : public JointFamily {
+ public:
+  static constexpr FamilyTraits kTraits = {
+      .family = MarginFamily::kJoint,
+      .name = "joint",
+      .unit = "rad",
+      .key = "joint_rad",
+      .meaning = "inside the joint limits",
+      .remedy =
+          "shorter steps, a lower via point, another `standing_posture_deg` or wider "
+          "`joint_limits_deg` of the robot file",
+      .sentence = kOfALimit,
+      .coverage = kAlwaysCovered,
+      .scope = MarginScope::kRobot,
+      .scale = 0.05,
+      .demanded = 0.0,
+      .raised = true,
+      .cost = MarginCost::kPosture,
+      .row = MarginFamily::kJoint,
+  };
 
-std::string JointMargin::Subject(const Margin& margin) const {
-  return JointName(place_.robot, margin);
-}
+  explicit JointMargin(const MarginPlace& place) : JointFamily(kTraits, place) {}
 
-Margin JointMargin::Least(Instant* at, double) const {
-  Margin least = Of(kUnlimited, -1);
-  for (int s = 0; s < 2; ++s) {
-    const Leg& leg = Nth(place_.robot.legs, s);
-    const LegIkSolution& ik = Nth(at->posture().ik, s);
-    if (ik.status != LegIkStatus::kSolved) {
-      Lower(Of(-kUnlimited, 6 * s + 3), &least);
-      continue;
-    }
-    for (int j = 0; j < 6; ++j) {
-      const LegJoint& joint = Nth(leg.joints, j);
-      Lower(Of(std::min(ik.q[j] - joint.lower, joint.upper - ik.q[j]), 6 * s + j), &least);
-    }
+  Margin Least(Instant* at, double) const override {
+    Margin least = Of(kUnlimited, -1);
+    ForEachJoint([&](size_t s, int j, const LegJoint& joint, int subject) {
+      const LegIkSolution& ik = at->posture().ik[s];
+      if (ik.status == LegIkStatus::kSolved) {
+        Lower(Of(std::min(ik.q[j] - joint.lower, joint.upper - ik.q[j]), subject), &least);
+      } else if (j == kKnee) {
+        Lower(Of(-kUnlimited, subject), &least);
+      }
+    });
+    return least;
   }
-  return least;
-}
 
-void JointMargin::AddRows(Instant* at, SlackSink* rows) const {
-  if (!at->regular()) return;
-  for (size_t s = 0; s < 2; ++s) {
-    for (int j = 0; j < 6; ++j) {
-      const LegJoint& joint = Nth(place_.robot.legs[s].joints, j);
+  void AddRows(Instant* at, SlackSink* rows) const override {
+    if (!at->regular()) return;
+    ForEachJoint([&](size_t s, int j, const LegJoint& joint, int) {
       const double q = at->posture().ik[s].q[j];
       rows->Add(q - joint.lower, [&](size_t i) { return rows->tangents[i].q[s][j]; });
       rows->Add(joint.upper - q, [&](size_t i) { return -rows->tangents[i].q[s][j]; });
-    }
+    });
   }
-}
 
-void JointMargin::AddBounds(const MarginInterval& interval, TightestStatement* tightest) const {
-  const IntervalMotion& motion = interval.motion;
-  const double h = motion.half_width;
-  for (int s = 0; s < 2; ++s) {
-    const size_t i = static_cast<size_t>(s);
-    const Vector6d& speed = motion.posture.speeds[i];
-    const Vector6d& acceleration = motion.joints[i].acceleration;
-    for (int j = 0; j < 6; ++j) {
-      const LegJoint& joint = Nth(place_.robot.legs[i].joints, j);
-      const double q = motion.posture.ik[i].q[j];
-      tightest->Add(Of(std::min(q - joint.lower, joint.upper - q), 6 * s + j),
-                    h * (std::abs(speed[j]) + 0.5 * h * acceleration[j]) + interval.mid.rounding());
-    }
+ protected:
+  void AddBounds(const MarginInterval& interval, TightestStatement* tightest) const override {
+    const IntervalMotion& motion = interval.motion;
+    const double h = motion.half_width;
+    ForEachJoint([&](size_t s, int j, const LegJoint& joint, int subject) {
+      const double q = motion.posture.ik[s].q[j], speed = motion.posture.speeds[s][j];
+      const double acceleration = motion.joints[s].acceleration[j];
+      tightest->Add(Of(std::min(q - joint.lower, joint.upper - q), subject),
+                    h * (std::abs(speed) + 0.5 * h * acceleration) + interval.mid.rounding());
+    });
   }
-}
+
+ private:
+  static constexpr int kKnee = 3;  // stands for a leg that does not reach
+};
+
+}  // namespace
+
+const FamilyClass& ClassOf(TagOf<JointMargin>) { return kClassOf<JointMargin>; }
 
 }  // namespace halfstep

@@ -1,56 +1,59 @@
-#include "smoothing/margins/joint_speed_margin.h"
-
 #include <cmath>
+#include <optional>
+#include <vector>
 
-#include "wpg/nth.h"
+#include "smoothing/margins/family_class.h"
+#include "smoothing/margins/joint_family.h"
 
 namespace halfstep {
+namespace {
 
-int JointSpeedMargin::count() const { return 12; }
+// Joint speed limit, times MarginLimits::joint_speed_scale, − |q̇| [rad/s]; −∞ when a leg does not
+// reach or is stretched to the singularity. Subject: 6·Index(Side) + joint.
+class JointSpeedMargin final : public JointSizeFamily<JointSpeedMargin> {
+ public:
+  static constexpr FamilyTraits kTraits = {
+      .family = MarginFamily::kJointSpeed,
+      .name = "joint_speed",
+      .unit = "rad/s",
+      .key = "joint_speed_rad_s",
+      .meaning = "inside the joint speed limits",
+      .remedy = "a longer `half_step.duration_s`, a lower `half_step.via_height_m`, shorter steps",
+      .sentence = kOfALimit,
+      .coverage = kAlwaysCovered,
+      .scope = MarginScope::kRobot,
+      .scale = 0.5,
+      .demanded = 0.0,
+      .raised = true,
+      .cost = MarginCost::kJointSpeeds,
+      .row = MarginFamily::kJointSpeed,
+  };
 
-std::string JointSpeedMargin::Subject(const Margin& margin) const {
-  return JointName(place_.robot, margin);
-}
+  explicit JointSpeedMargin(const MarginPlace& place) : JointSizeFamily(kTraits, place) {}
 
-Margin JointSpeedMargin::Least(Instant* at, double) const {
-  if (!at->regular()) return Of(-kUnlimited, -1);
-  Margin least = Of(kUnlimited, -1);
-  for (int s = 0; s < 2; ++s) {
-    for (int j = 0; j < 6; ++j) {
-      const LegJoint& joint = Nth(Nth(place_.robot.legs, s).joints, j);
-      const double speed = std::abs(Nth(at->posture().speeds, s)[j]);
-      Lower(Of(at->limits().joint_speed_scale * joint.max_speed - speed, 6 * s + j), &least);
-    }
+  static std::optional<ByLegs> ValuesAt(Instant* at) {
+    if (!at->regular()) return std::nullopt;
+    return at->posture().speeds;
   }
-  return least;
-}
-
-void JointSpeedMargin::AddRows(Instant* at, SlackSink* rows) const {
-  if (!at->regular()) return;
-  for (size_t s = 0; s < 2; ++s) {
-    for (int j = 0; j < 6; ++j) {
-      const LegJoint& joint = Nth(place_.robot.legs[s].joints, j);
-      const double limit = at->limits().joint_speed_scale * joint.max_speed;
-      const double speed = at->posture().speeds[s][j];
-      const double sign = speed < 0.0 ? -1.0 : 1.0;
-      rows->Add(limit - std::abs(speed),
-                [&](size_t i) { return -sign * rows->tangents[i].speeds[s][j]; });
-    }
+  static double Limit(const Instant& at, const LegJoint& joint) {
+    return at.limits().joint_speed_scale * joint.max_speed;
   }
-}
-
-void JointSpeedMargin::AddBounds(const MarginInterval& interval,
-                                 TightestStatement* tightest) const {
-  const IntervalMotion& motion = interval.motion;
-  for (int s = 0; s < 2; ++s) {
-    const size_t i = static_cast<size_t>(s);
-    for (int j = 0; j < 6; ++j) {
-      const LegJoint& joint = Nth(place_.robot.legs[i].joints, j);
-      const double limit = interval.mid.limits().joint_speed_scale * joint.max_speed;
-      tightest->Add(Of(limit - std::abs(motion.posture.speeds[i][j]), 6 * s + j),
-                    motion.half_width * motion.joints[i].acceleration[j] + interval.mid.rounding());
-    }
+  static const ByLegs& Slopes(Instant*, const SlackSink& rows, size_t i, std::vector<ByLegs>*) {
+    return rows.tangents[i].speeds;
   }
-}
+
+ protected:
+  void AddBounds(const MarginInterval& interval, TightestStatement* tightest) const override {
+    const IntervalMotion& motion = interval.motion;
+    ForEachJoint([&](size_t s, int j, const LegJoint& joint, int subject) {
+      tightest->Add(Of(Limit(interval.mid, joint) - std::abs(motion.posture.speeds[s][j]), subject),
+                    motion.half_width * motion.joints[s].acceleration[j] + interval.mid.rounding());
+    });
+  }
+};
+
+}  // namespace
+
+const FamilyClass& ClassOf(TagOf<JointSpeedMargin>) { return kClassOf<JointSpeedMargin>; }
 
 }  // namespace halfstep

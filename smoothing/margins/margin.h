@@ -2,10 +2,12 @@
 
 #include <array>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "smoothing/walk/superposed_walk.h"
 #include "wpg/enumerators.h"
@@ -15,7 +17,7 @@ namespace halfstep {
 
 /// The kinds of statements that a walk must satisfy, in the order of certificates and tables. Each
 /// margin says how far inside its limit the walk is, in its natural unit; positive is inside. The
-/// class of a family (margins/NAME_margin.h) says how it is evaluated and proved.
+/// class of a family (margins/NAME_margin.cc) says how it is evaluated and proved.
 enum class MarginFamily : int {
   kFloor,          ///< height of a sole above the floor while it moves horizontally [m]
   kFootSpeed,      ///< limit − speed of the swing sole's centre [m/s]
@@ -33,7 +35,7 @@ enum class MarginFamily : int {
   kFriction,       ///< friction coefficient of the floor less what the soles need [1]
   /// limit that the robot file states − |q̈| of a leg joint [rad/s²]
   kJointAcceleration,
-  kOwn,  ///< what the program itself registered (own_margin.h), of its scale [1]
+  kOwn,  ///< what the program itself adds (own_margin.h), of its scale [1]
 };
 /// How many families there are.
 inline constexpr int kNumMarginFamilies = NumEnumerators<MarginFamily>();
@@ -45,9 +47,15 @@ std::string_view Unit(MarginFamily family);  ///< "m", "rad" …
 double Scale(MarginFamily family);
 /// What is demanded of each family unless the user says otherwise [its unit].
 std::array<double, kNumMarginFamilies> DefaultDemands();
-/// The families that there are, in order: all, but kOwn only where something is registered. Of one
-/// robot: MarginEvaluator::families().
+/// All families, in order. Of one robot: MarginEvaluator::families().
 std::span<const MarginFamily> AllMarginFamilies();
+
+class OwnStatement;
+/// Margins of one's own (own_margin.h), which make up the family `own`.
+using OwnMargins = std::vector<std::shared_ptr<const OwnStatement>>;
+/// The families of a program with these margins of its own, in order: all, but kOwn only where
+/// there is one.
+std::span<const MarginFamily> FamiliesWith(const OwnMargins& own);
 
 /// The margin of what has no limit [any unit].
 inline constexpr double kUnlimited = std::numeric_limits<double>::infinity();
@@ -82,6 +90,7 @@ struct MarginLimits {
   /// A clearance beyond this reads as this [m], or as twice the largest demanded clearance where
   /// that is more.
   double clearance_horizon = 0.3;
+  OwnMargins own = {};  ///< more margins to be kept, of one's own; not null
 
   /// What is demanded of a family [its unit]; kNotDemanded: nothing.
   double demanded_of(MarginFamily f) const { return Nth(demanded, f); }

@@ -2,30 +2,33 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
-#include "smoothing/margins/all_families.h"
 #include "smoothing/margins/demandable.h"
+#include "smoothing/margins/family_class.h"
 #include "wpg/files/plain_locale.h"
 #include "wpg/nth.h"
 
 namespace halfstep {
 
-MarginEvaluator::Shared::Shared(RobotModel robot, Scene scene)
-    : place(std::move(robot), std::move(scene)), statements(AllFamilies::Make(place)) {
+MarginEvaluator::Shared::Shared(RobotModel robot, Scene scene, OwnMargins own)
+    : place(std::move(robot), std::move(scene), std::move(own)) {
   for (const MarginFamily family : AllMarginFamilies()) {
+    Nth(statements, family) = ClassOf(family).make(place);
     if (Nth(statements, family)->present()) families.push_back(family);
   }
+  by_cost = families;
+  std::ranges::stable_sort(by_cost, {}, [](MarginFamily f) { return Traits(f).cost; });
 }
 
 MarginEvaluator::MarginEvaluator(RobotModel robot, Scene scene, MarginLimits limits)
-    : shared_(std::make_shared<const Shared>(std::move(robot), std::move(scene))),
+    : shared_(std::make_shared<const Shared>(std::move(robot), std::move(scene), limits.own)),
       limits_(Demandable(limits, this->robot())) {}
 
 MarginEvaluator MarginEvaluator::WithLimits(const MarginLimits& limits) const {
   MarginEvaluator other = *this;
   other.limits_ = Demandable(limits, robot());
+  other.limits_.own = place().own;
   return other;
 }
 
@@ -34,10 +37,10 @@ MarginSet MarginEvaluator::At(const SuperposedWalk& walk, const LocalTime& at,
   ++scratch->instants;
   Instant instant(place(), limits_, walk, at, scratch);
   MarginSet margins;
-  margins.back().family = MarginFamily::kOwn;  // where nothing is registered: without a limit
   for (const MarginFamily family : AllMarginFamilies()) {
     Margin& margin = Nth(margins, family);
-    margin = statements(family).Least(&instant, std::numeric_limits<double>::infinity());
+    margin.family = family;
+    if (statements(family).present()) margin = statements(family).Least(&instant, kUnlimited);
     margin.at = at;
     margin.t = instant.t();
   }
@@ -48,7 +51,7 @@ std::optional<Margin> MarginEvaluator::FirstViolation(const SuperposedWalk& walk
                                                       const LocalTime& at, Scratch* scratch) const {
   ++scratch->instants;
   Instant instant(place(), limits_, walk, at, scratch);
-  for (const MarginFamily family : FamiliesByCost()) {
+  for (const MarginFamily family : families_by_cost()) {
     std::optional<Margin> below =
         statements(family).FirstBelow(&instant, limits_.demanded_of(family));
     if (!below) continue;
@@ -64,9 +67,10 @@ std::vector<Margin> MarginEvaluator::Violations(const SuperposedWalk& walk, cons
   ++scratch->instants;
   Instant instant(place(), limits_, walk, at, scratch);
   std::vector<Margin> below;
-  for (const MarginFamily family : FamiliesByCost()) {
+  for (const MarginFamily family : families_by_cost()) {
     statements(family).AddBelow(&instant, limits_.demanded_of(family), &below);
   }
+  // Of all families, `reach` is the one that says why the others cannot be told.
   bool told = std::ranges::any_of(
       below, [](const Margin& margin) { return margin.family == MarginFamily::kReach; });
   std::erase_if(below, [&told](const Margin& margin) {
@@ -87,11 +91,7 @@ std::string MarginEvaluator::Describe(const Margin& margin) const {
   if (std::isnan(margin.value)) {
     out << " could not be decided";
   } else if (std::isinf(margin.value) && margin.value < 0.0) {
-    out << (margin.family == MarginFamily::kFriction || margin.family == MarginFamily::kZmpRobot
-                ? " cannot be told, since the soles cannot give what the motion needs or a leg "
-                  "does "
-                  "not reach,"
-                : " cannot be told, since a leg does not reach or is stretched,");
+    out << Traits(margin.family).untold.at_instant;
   } else {
     out << " " << margin.value << " " << Unit(margin.family) << " (demanded "
         << limits_.demanded_of(margin.family) << ")";

@@ -25,7 +25,7 @@ class MarginEvaluator {
   /// nothing of its ZMP, and nothing of what the robot's files do not limit.
   MarginEvaluator(RobotModel robot, Scene scene, MarginLimits limits);
 
-  /// The same robot and scene, shared, with other limits.
+  /// The same robot, scene and margins of one's own, shared, with other limits.
   MarginEvaluator WithLimits(const MarginLimits& limits) const;
 
   const RobotModel& robot() const { return place().robot; }    ///< as given
@@ -39,6 +39,8 @@ class MarginEvaluator {
   Scratch MakeScratch() const { return {.bodies = clearances().MakeScratch()}; }
   /// The families that there are for this robot, in order.
   std::span<const MarginFamily> families() const { return shared_->families; }
+  /// The same, those that need little work first.
+  std::span<const MarginFamily> families_by_cost() const { return shared_->by_cost; }
   /// All statements of a family.
   const MarginStatements& statements(MarginFamily family) const {
     return *Nth(shared_->statements, family);
@@ -69,11 +71,11 @@ class MarginEvaluator {
 
  private:
   struct Shared {
-    Shared(RobotModel robot, Scene scene);
+    Shared(RobotModel robot, Scene scene, OwnMargins own);
     MarginPlace place;
     // By family; borrow place.
     std::array<std::unique_ptr<const MarginStatements>, kNumMarginFamilies> statements;
-    std::vector<MarginFamily> families;  // that are present
+    std::vector<MarginFamily> families, by_cost;  // that are present
   };
 
   std::shared_ptr<const Shared> shared_;

@@ -22,9 +22,10 @@ namespace halfstep {
 struct MarginPlace {
   /// Prepares both; takes as long as building the scene's trees. Precondition: nothing stands out
   /// of the ground's floor, since no family keeps off solids yet (std::logic_error).
-  MarginPlace(RobotModel r, Scene s)
+  MarginPlace(RobotModel r, Scene s, OwnMargins its_own)
       : robot(std::move(r)),
         scene(std::move(s)),
+        own(std::move(its_own)),
         clearances(robot, scene),
         heights(robot, scene.ground->Floor()),
         areas(scene, robot.sole_outline),
@@ -36,6 +37,7 @@ struct MarginPlace {
 
   RobotModel robot;           ///< the robot that walks
   Scene scene;                ///< where it walks
+  OwnMargins own;             ///< the statements of the family `own`
   BodyClearances clearances;  ///< of the robot's bodies in the scene
   BodyHeights heights;        ///< of the robot's bodies above the floor
   NoStepAreas areas;          ///< of the scene, for the robot's soles

@@ -48,14 +48,13 @@ std::string MarginStatements::FootName(const Margin& margin) {
                             : std::string(Name(static_cast<Side>(margin.subject))) + " foot";
 }
 
-std::string MarginStatements::JointName(const RobotModel& robot, const Margin& margin) {
-  if (margin.subject < 0) return "legs";
-  const Leg& leg = Nth(robot.legs, margin.subject / 6);
-  return Nth(leg.joints, margin.subject % 6).name;
-}
-
 std::string MarginStatements::BodyName(const RobotModel& robot, int body) {
   return body < 0 ? "robot" : Nth(robot.bodies, body).name;
+}
+
+std::vector<Side> MarginStatements::FootOf(const RobotModel& robot, int body) {
+  if (body < 0 || !IsOnFoot(Nth(robot.bodies, body))) return {};
+  return {static_cast<Side>(Nth(robot.bodies, body).leg)};
 }
 
 double MarginStatements::ClearanceHorizon(const MarginLimits& limits) {

@@ -54,6 +54,9 @@ class MarginStatements {
   /// The name of what a margin of the family belongs to: "RLEG_LINK5 - bar", "right foot",
   /// "LLEG_JOINT3".
   virtual std::string Subject(const Margin& margin) const = 0;
+  /// The feet whose places alone decide a margin while all of them stand: then the footsteps that
+  /// put them there are to blame for it. Empty: it is about how something moves.
+  virtual std::vector<Side> PlacedFeet(const Margin& margin) const = 0;
 
   /// The least margin at an instant, without `at` and `t`. It is +∞ when there is nothing to watch,
   /// and −∞ when a leg does not reach that the margin needs. Margins of `enough` or more [its unit]
@@ -84,12 +87,12 @@ class MarginStatements {
   }
   /// Replaces `least` by `other` where that is smaller. What is not a number counts as −∞.
   static void Lower(const Margin& other, Margin* least);
-  /// Names for Subject: "right foot", "both feet"; "LLEG_JOINT3", "legs"; "RLEG_LINK5", "robot".
+  /// Names for Subject: "right foot", "both feet"; "RLEG_LINK5", "robot".
   static std::string FootName(const Margin& margin);
-  /// As FootName, of joints.
-  static std::string JointName(const RobotModel& robot, const Margin& margin);
   /// As FootName, of bodies.
   static std::string BodyName(const RobotModel& robot, int body);
+  /// The foot to which a body belongs (index of RobotModel::bodies); empty: to none.
+  static std::vector<Side> FootOf(const RobotModel& robot, int body);
   /// Distances are told apart up to this [m]: MarginLimits::clearance_horizon, or twice the largest
   /// demanded clearance where that is more.
   static double ClearanceHorizon(const MarginLimits& limits);

@@ -6,31 +6,24 @@
 #include "smoothing/margins/family_traits.h"
 
 namespace halfstep {
-namespace {
-
-bool HasNoLimit(MarginFamily family, const MarginLimits& limits) {
-  return (family == MarginFamily::kFootSpeed && !limits.foot_speed) ||
-         (family == MarginFamily::kFootYawRate && !limits.foot_yaw_rate);
-}
-
-}  // namespace
 
 std::vector<NotCovered> NotCoveredBy(const RobotModel& robot, const Scene& scene,
                                      const MarginLimits& limits) {
   const MarginLimits demandable = Demandable(limits, robot);
-  std::vector<NotCovered> list;
-  for (const MarginFamily family : AllMarginFamilies()) {
+  std::vector<NotCovered> list, assumed;
+  for (const MarginFamily family : FamiliesWith(limits.own)) {
+    const FamilyCoverage& coverage = Traits(family).coverage;
     if (demandable.demanded_of(family) == kNotDemanded) {
       const std::string why = WhyNotDemandable(family, robot);
       list.push_back(NotDemandedFamily(Name(family), why.empty() ? "the config says none" : why));
-    } else if (HasNoLimit(family, limits)) {
+      continue;
+    }
+    if (coverage.limit != nullptr && !(limits.*coverage.limit)) {
       list.push_back(UnlimitedFamily(Name(family)));
     }
+    if (const auto one = coverage.assumes(scene)) assumed.push_back(*one);
   }
-  if (demandable.demanded_of(MarginFamily::kFriction) != kNotDemanded &&
-      scene.friction == Scene{}.friction) {
-    list.push_back(AssumedFriction(scene.friction));
-  }
+  list.insert(list.end(), assumed.begin(), assumed.end());
   const std::vector<NotCovered> of_robot = NotCoveredOf(robot);
   list.insert(list.end(), of_robot.begin(), of_robot.end());
   return list;

@@ -1,75 +1,82 @@
 #include "smoothing/margins/own_margin.h"
 
 #include <cmath>
-#include <stdexcept>
-#include <utility>
 
+#include "smoothing/margins/family_class.h"
 #include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
 
-struct RegisteredMargins {
-  std::vector<std::unique_ptr<const OwnStatement>> all;
-  bool in_use = false;  // families were counted already
-};
+// The least of a program's own margins, each divided by its scale. Subject: its place among them.
+class OwnMargin final : public WholeFamily {
+ public:
+  static constexpr FamilyTraits kTraits = {
+      .family = MarginFamily::kOwn,
+      .name = "own",
+      .unit = "1",
+      .key = "own",
+      .meaning = "inside every margin that this program registered, of its scale",
+      .remedy = "what the margin is about",
+      .sentence = kOfALimit,
+      .coverage = kAlwaysCovered,
+      .scope = MarginScope::kRobot,
+      .scale = 1.0,
+      .demanded = 0.0,
+      .raised = true,
+      .cost = MarginCost::kWalk,
+      .row = MarginFamily::kOwn,
+      .most = 1000.0,
+  };
 
-RegisteredMargins& TheOwnMargins() {
-  static RegisteredMargins registered;
-  return registered;
-}
+  explicit OwnMargin(const MarginPlace& place) : WholeFamily(kTraits), all_(place.own) {}
+
+  bool present() const override { return !all_.empty(); }
+  int count() const override { return static_cast<int>(all_.size()); }
+  int groups() const override { return present() ? 1 : 0; }
+  std::string Subject(const Margin& margin) const override {
+    if (margin.subject >= 0) return Nth(all_, margin.subject)->name();
+    std::string names;  // where it is not known which one
+    for (const auto& own : all_) names += (names.empty() ? "" : ", ") + own->name();
+    return names;
+  }
+  std::vector<Side> PlacedFeet(const Margin&) const override { return {}; }
+
+  Margin Least(Instant* at, double) const override {
+    Margin least = Of(kUnlimited, -1);
+    for (int i = 0; i < count(); ++i) Lower(MarginOf(i, at), &least);
+    return least;
+  }
+
+  void AddRows(Instant* at, SlackSink* rows) const override {
+    for (const auto& own : all_) {
+      const double value = own->Value(at) / own->scale();
+      if (!(value <= rows->horizon()) || !std::isfinite(value)) continue;
+      const std::vector<double> slopes = own->Slopes(at, rows->sensitivities);
+      rows->Add(value, [&](size_t i) { return slopes[i] / own->scale(); });
+    }
+  }
+
+ protected:
+  void AddBounds(const MarginInterval& interval, TightestStatement* tightest) const override {
+    for (int i = 0; i < count(); ++i) {
+      const Margin margin = MarginOf(i, &interval.mid);
+      if (margin.value == kUnlimited) continue;
+      const OwnStatement& own = *Nth(all_, i);
+      tightest->Add(margin, own.Change(interval) / own.scale() + interval.mid.rounding());
+    }
+  }
+
+ private:
+  Margin MarginOf(int i, Instant* at) const {
+    return Of(Nth(all_, i)->Value(at) / Nth(all_, i)->scale(), i);
+  }
+
+  const OwnMargins& all_;
+};
 
 }  // namespace
 
-void RegisterOwnMargin(std::unique_ptr<const OwnStatement> statement) {
-  RegisteredMargins& registered = TheOwnMargins();
-  if (registered.in_use) {
-    throw std::logic_error("margin `" + statement->name() +
-                           "` comes too late: register margins before anything else");
-  }
-  registered.all.push_back(std::move(statement));
-}
-
-const std::vector<std::unique_ptr<const OwnStatement>>& OwnMargins() {
-  TheOwnMargins().in_use = true;
-  return TheOwnMargins().all;
-}
-
-int OwnMargin::count() const { return static_cast<int>(OwnMargins().size()); }
-
-std::string OwnMargin::Subject(const Margin& margin) const {
-  const auto& all = OwnMargins();
-  if (margin.subject >= 0) return Nth(all, margin.subject)->name();
-  std::string names;  // where it is not known which one
-  for (const auto& own : all) names += (names.empty() ? "" : ", ") + own->name();
-  return names;
-}
-
-Margin OwnMargin::Least(Instant* at, double) const {
-  Margin least = Of(kUnlimited, -1);
-  const auto& all = OwnMargins();
-  for (size_t i = 0; i < all.size(); ++i) {
-    Lower(Of(all[i]->Value(at) / all[i]->scale(), static_cast<int>(i)), &least);
-  }
-  return least;
-}
-
-void OwnMargin::AddRows(Instant* at, SlackSink* rows) const {
-  for (const auto& own : OwnMargins()) {
-    const double value = own->Value(at) / own->scale();
-    if (!(value <= rows->horizon()) || !std::isfinite(value)) continue;
-    const std::vector<double> slopes = own->Slopes(at, rows->sensitivities);
-    rows->Add(value, [&](size_t i) { return slopes[i] / own->scale(); });
-  }
-}
-
-void OwnMargin::AddBounds(const MarginInterval& interval, TightestStatement* tightest) const {
-  const auto& all = OwnMargins();
-  for (size_t i = 0; i < all.size(); ++i) {
-    const Margin margin = Of(all[i]->Value(&interval.mid) / all[i]->scale(), static_cast<int>(i));
-    if (margin.value == kUnlimited) continue;
-    tightest->Add(margin, all[i]->Change(interval) / all[i]->scale() + interval.mid.rounding());
-  }
-}
+const FamilyClass& ClassOf(TagOf<OwnMargin>) { return kClassOf<OwnMargin>; }
 
 }  // namespace halfstep

@@ -1,96 +1,138 @@
-#include "smoothing/margins/self_clearance_margin.h"
-
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "smoothing/margins/family_class.h"
 #include "wpg/nth.h"
 
 namespace halfstep {
+namespace {
 
-int SelfClearanceMargin::count() const { return static_cast<int>(place_.clearances.num_pairs()); }
+// Distance between two of the robot's own bodies [m], at most the clearance horizon; −∞ when a leg
+// does not reach. Proved pair by pair. Subject and other: indices of RobotModel::bodies.
+class SelfClearanceMargin final : public MarginStatements {
+ public:
+  static constexpr FamilyTraits kTraits = {
+      .family = MarginFamily::kSelfClearance,
+      .name = "self_clearance",
+      .unit = "m",
+      .key = "self_clearance_m",
+      .meaning = "between the robot's own bodies",
+      .remedy =
+          "`excluded_self_pairs` of the robot file if these links touch by design, another "
+          "`standing_posture_deg`, or a foot that passes farther aside (`half_step.via_lateral_m`)",
+      .sentence = {"{first} is {amount} from {second}", "{first} is {amount} inside {second}"},
+      .coverage = kAlwaysCovered,
+      .scope = MarginScope::kRobot,
+      .scale = 0.01,
+      .demanded = 0.005,
+      .raised = true,
+      .cost = MarginCost::kPairs,
+      .row = MarginFamily::kSelfClearance,
+  };
 
-std::string SelfClearanceMargin::Subject(const Margin& margin) const {
-  return BodyName(place_.robot, margin.subject) + " - " + BodyName(place_.robot, margin.other);
-}
+  explicit SelfClearanceMargin(const MarginPlace& place)
+      : MarginStatements(kTraits), place_(place) {}
 
-Margin SelfClearanceMargin::Least(Instant* at, double enough) const {
-  if (!at->reachable()) return Of(-std::numeric_limits<double>::infinity(), -1);
-  const double horizon = std::min(enough, ClearanceHorizon(at->limits()));
-  return place_.clearances.NearestPair(at->posture(), horizon, &at->scratch().bodies);
-}
+  int count() const override { return static_cast<int>(place_.clearances.num_pairs()); }
 
-std::optional<Margin> SelfClearanceMargin::FirstBelow(Instant* at, double demanded) const {
-  if (!at->reachable()) return Of(-std::numeric_limits<double>::infinity(), -1);
-  return place_.clearances.FirstPairBelow(at->posture(), demanded, &at->scratch().bodies);
-}
-
-void SelfClearanceMargin::AddBelow(Instant* at, double demanded, std::vector<Margin>* below) const {
-  if (!at->reachable()) return below->push_back(Of(-std::numeric_limits<double>::infinity(), -1));
-  const BodyClearances& clearances = place_.clearances;
-  BodyClearances::Scratch& scratch = at->scratch().bodies;
-  clearances.Place(at->posture(), &scratch);
-  for (size_t p = 0; p < clearances.num_pairs(); ++p) {
-    if (clearances.PairClears(p, at->posture(), demanded, &scratch)) continue;
-    below->push_back(clearances.OfPair(p, at->posture(), demanded, &scratch));
+  std::string Subject(const Margin& margin) const override {
+    return BodyName(place_.robot, margin.subject) + " - " + BodyName(place_.robot, margin.other);
   }
-}
 
-void SelfClearanceMargin::AddRows(Instant* at, SlackSink* rows) const {
-  if (!at->regular()) return;
-  const Posture& posture = at->posture();
-  const BodyClearances& clearances = place_.clearances;
-  BodyClearances::Scratch& scratch = at->scratch().bodies;
-  clearances.Place(posture, &scratch);
-  for (size_t p = 0; p < clearances.num_pairs(); ++p) {
-    if (clearances.PairClears(p, posture, rows->horizon(), &scratch)) continue;
-    const Separation gap = clearances.SeparationOf(p, posture, &scratch);
-    const auto [a, b] = place_.robot.self_pairs[p];
-    const RobotBody& first = Nth(place_.robot.bodies, a);
-    const RobotBody& second = Nth(place_.robot.bodies, b);
-    rows->Add(gap.distance, [&](size_t i) {
-      const PostureTangent& tangent = rows->tangents[i];
-      return gap.normal_W.dot(PointTangent(first, posture, tangent, gap.point_a_W) -
-                              PointTangent(second, posture, tangent, gap.point_b_W));
-    });
+  std::vector<Side> PlacedFeet(const Margin& margin) const override {
+    std::vector<Side> feet = FootOf(place_.robot, margin.subject);
+    const std::vector<Side> other = FootOf(place_.robot, margin.other);
+    if (feet.empty() || other.empty()) return {};  // the other body moves
+    feet.insert(feet.end(), other.begin(), other.end());
+    return feet;
   }
-}
 
-Margin SelfClearanceMargin::OfGroup(uint16_t pair) const {
-  const auto [a, b] = place_.robot.self_pairs[pair];
-  return Of(std::nan(""), a, b);
-}
+  Margin Least(Instant* at, double enough) const override {
+    if (!at->reachable()) return Of(-kUnlimited, -1);
+    const double horizon = std::min(enough, ClearanceHorizon(at->limits()));
+    return place_.clearances.NearestPair(at->posture(), horizon, &at->scratch().bodies);
+  }
 
-FamilyProof SelfClearanceMargin::Prove(const MarginInterval& interval,
-                                       std::vector<uint16_t>* open) const {
-  const BodyClearances& clearances = place_.clearances;
-  const IntervalMotion& motion = interval.motion;
-  BodyClearances::Scratch& scratch = interval.mid.scratch().bodies;
-  const double demanded = interval.mid.demanded(family());
-  const double rounding = interval.mid.rounding();
-  const double horizon = interval.mid.limits().clearance_horizon;
-  FamilyProof proof;
-  clearances.Place(motion.posture, &scratch);
-  std::erase_if(*open, [&](uint16_t pair) {
-    if (proof.violated) return false;
-    const auto [i, j] = place_.robot.self_pairs[pair];
-    const size_t a = static_cast<size_t>(i), b = static_cast<size_t>(j);
-    const double bound = std::min(motion.displacement[a] + motion.displacement[b],
-                                  motion.displacement_B[a] + motion.displacement_B[b]) +
-                         rounding;
-    if (clearances.PairClears(pair, motion.posture, demanded + bound, &scratch)) {
-      if (interval.with_margins) {
-        const double enough = std::max(horizon, demanded + bound + rounding);
-        proof.held.Add(clearances.OfPair(pair, motion.posture, enough, &scratch), bound);
+  std::optional<Margin> FirstBelow(Instant* at, double demanded) const override {
+    if (!at->reachable()) return Of(-kUnlimited, -1);
+    return place_.clearances.FirstPairBelow(at->posture(), demanded, &at->scratch().bodies);
+  }
+
+  void AddBelow(Instant* at, double demanded, std::vector<Margin>* below) const override {
+    if (!at->reachable()) return below->push_back(Of(-kUnlimited, -1));
+    const BodyClearances& clearances = place_.clearances;
+    BodyClearances::Scratch& scratch = at->scratch().bodies;
+    clearances.Place(at->posture(), &scratch);
+    for (size_t p = 0; p < clearances.num_pairs(); ++p) {
+      if (clearances.PairClears(p, at->posture(), demanded, &scratch)) continue;
+      below->push_back(clearances.OfPair(p, at->posture(), demanded, &scratch));
+    }
+  }
+
+  void AddRows(Instant* at, SlackSink* rows) const override {
+    if (!at->regular()) return;
+    const Posture& posture = at->posture();
+    const BodyClearances& clearances = place_.clearances;
+    BodyClearances::Scratch& scratch = at->scratch().bodies;
+    clearances.Place(posture, &scratch);
+    for (size_t p = 0; p < clearances.num_pairs(); ++p) {
+      if (clearances.PairClears(p, posture, rows->horizon(), &scratch)) continue;
+      const Separation gap = clearances.SeparationOf(p, posture, &scratch);
+      const auto [a, b] = place_.robot.self_pairs[p];
+      const RobotBody& first = Nth(place_.robot.bodies, a);
+      const RobotBody& second = Nth(place_.robot.bodies, b);
+      rows->Add(gap.distance, [&](size_t i) {
+        const PostureTangent& tangent = rows->tangents[i];
+        return gap.normal_W.dot(PointTangent(first, posture, tangent, gap.point_a_W) -
+                                PointTangent(second, posture, tangent, gap.point_b_W));
+      });
+    }
+  }
+
+  int groups() const override { return count(); }
+
+  Margin OfGroup(uint16_t pair) const override {
+    const auto [a, b] = place_.robot.self_pairs[pair];
+    return Of(std::nan(""), a, b);
+  }
+
+  FamilyProof Prove(const MarginInterval& interval, std::vector<uint16_t>* open) const override {
+    const BodyClearances& clearances = place_.clearances;
+    const IntervalMotion& motion = interval.motion;
+    BodyClearances::Scratch& scratch = interval.mid.scratch().bodies;
+    const double demanded = interval.mid.demanded(family());
+    const double rounding = interval.mid.rounding();
+    const double horizon = interval.mid.limits().clearance_horizon;
+    FamilyProof proof;
+    clearances.Place(motion.posture, &scratch);
+    std::erase_if(*open, [&](uint16_t pair) {
+      if (proof.violated) return false;
+      const auto [i, j] = place_.robot.self_pairs[pair];
+      const size_t a = static_cast<size_t>(i), b = static_cast<size_t>(j);
+      const double bound = std::min(motion.displacement[a] + motion.displacement[b],
+                                    motion.displacement_B[a] + motion.displacement_B[b]) +
+                           rounding;
+      if (clearances.PairClears(pair, motion.posture, demanded + bound, &scratch)) {
+        if (interval.with_margins) {
+          const double enough = std::max(horizon, demanded + bound + rounding);
+          proof.held.Add(clearances.OfPair(pair, motion.posture, enough, &scratch), bound);
+        }
+        return true;
       }
-      return true;
-    }
-    if (!clearances.PairClears(pair, motion.posture, demanded, &scratch)) {
-      proof.violated = clearances.OfPair(pair, motion.posture, 1.0, &scratch);
-    }
-    return false;
-  });
-  return proof;
-}
+      if (!clearances.PairClears(pair, motion.posture, demanded, &scratch)) {
+        proof.violated = clearances.OfPair(pair, motion.posture, 1.0, &scratch);
+      }
+      return false;
+    });
+    return proof;
+  }
+
+ private:
+  const MarginPlace& place_;
+};
+
+}  // namespace
+
+const FamilyClass& ClassOf(TagOf<SelfClearanceMargin>) { return kClassOf<SelfClearanceMargin>; }
 
 }  // namespace halfstep

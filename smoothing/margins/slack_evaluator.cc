@@ -65,7 +65,7 @@ void SlackEvaluator::At(const SuperposedWalk& walk, const LocalTime& at,
       }
     }
   }
-  for (const MarginFamily family : AllMarginFamilies()) {
+  for (const MarginFamily family : evaluator_.families()) {
     sink_.Begin(family, limits.demanded_of(family));
     evaluator_.statements(family).AddRows(&instant, &sink_);
   }

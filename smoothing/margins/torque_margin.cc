@@ -1,18 +1,19 @@
-#include "smoothing/margins/torque_margin.h"
-
 #include <cmath>
 #include <optional>
 #include <vector>
 
+#include "smoothing/margins/family_class.h"
+#include "smoothing/margins/joint_family.h"
+#include "wpg/motion/dynamics_slope.h"
+#include "wpg/motion/foot_loads.h"
 #include "wpg/motion/leg_torques.h"
 #include "wpg/motion/torque_drift.h"
 #include "wpg/nth.h"
 #include "wpg/robot/gravity.h"
+#include "wpg/robot/torque_limits.h"
 
 namespace halfstep {
 namespace {
-
-int SubjectOf(Side side, Eigen::Index joint) { return 6 * Index(side) + static_cast<int>(joint); }
 
 // How the feet carry the robot; none where nothing can be said.
 std::optional<FootLoads> LoadsAt(Instant* at) {
@@ -25,23 +26,24 @@ std::optional<FootLoads> LoadsAt(Instant* at) {
                              at->robot().sole_size, *zmp);
 }
 
-Vector6d TorquesAt(Instant* at, const FootLoads& loads, Side side) {
-  const RobotDynamics& dynamics = *at->dynamics();
-  return LegTorques(dynamics, side, loads.On(side, dynamics.contact()));
+ByLegs TorquesAt(const RobotDynamics& dynamics, const FootLoads& loads) {
+  const auto of = [&](Side side) {
+    return LegTorques(dynamics, side, loads.On(side, dynamics.contact()));
+  };
+  return {of(Side::kLeft), of(Side::kRight)};
 }
 
-// Of both legs by Index(Side), along each parameter.
-std::vector<std::array<Vector6d, 2>> SlopesAt(Instant* at, const FootLoads& loads,
-                                              const SlackSink& rows) {
+// ∂torque/∂parameter, along each parameter.
+std::vector<ByLegs> TorqueSlopes(Instant* at, const FootLoads& loads, const SlackSink& rows) {
   const RobotDynamics& dynamics = *at->dynamics();
   const Vector6d& contact = dynamics.contact();
-  std::vector<std::array<Vector6d, 2>> slopes;
+  std::vector<ByLegs> slopes;
   for (size_t i = 0; i < rows.sensitivities.size(); ++i) {
     const PostureTangent& tangent = rows.tangents[i];
     const DynamicsSlope slope(at->robot(), at->jet(), at->posture(), dynamics,
                               {rows.sensitivities[i].jet, tangent.q, tangent.speeds});
     const Eigen::Vector2d zmp = dynamics.ZmpSlope(slope.contact());
-    auto& of_legs = slopes.emplace_back();
+    ByLegs& of_legs = slopes.emplace_back();
     for (const Side side : {Side::kLeft, Side::kRight}) {
       Nth(of_legs, Index(side)) =
           LegTorqueSlopes(dynamics, slope, side, loads.On(side, contact),
@@ -51,76 +53,81 @@ std::vector<std::array<Vector6d, 2>> SlopesAt(Instant* at, const FootLoads& load
   return slopes;
 }
 
+// Torque limit − |torque| of a leg joint [N m], of the whole robot's dynamics: the foot that
+// stands alone carries all of what the floor gives, two feet share it (FootLoads). +∞ for a joint
+// whose limit is not known; −∞ when a leg does not reach or is stretched to the singularity,
+// masses are not known, or the floor does not push. Subject: 6·Index(Side) + joint. Where nothing
+// is demanded (kNotDemanded) it has no rows, and its proofs say nothing. Source: wpg/README.md,
+// "Joint torques".
+class TorqueMargin final : public JointSizeFamily<TorqueMargin> {
+ public:
+  static constexpr FamilyTraits kTraits = {
+      .family = MarginFamily::kTorque,
+      .name = "torque",
+      .unit = "N m",
+      .key = "torque_n_m",
+      .meaning =
+          "inside the torque limits of the legs' joints, where these are known; none: not demanded",
+      .remedy =
+          "a longer `half_step.duration_s`, shorter steps, a lower `half_step.via_height_m`; "
+          "`effort_limits_n_m` of the robot file says what the joints give",
+      .sentence = kOfALimit,
+      .coverage = {.why_not_demandable = TorqueFault},
+      .scope = MarginScope::kRobot,
+      .scale = 5.0,
+      .demanded = 0.0,
+      .raised = true,
+      .cost = MarginCost::kJointSpeeds,
+      .row = MarginFamily::kTorque,
+      .may_be_none = true,
+      .most = 500.0,
+  };
+
+  explicit TorqueMargin(const MarginPlace& place) : JointSizeFamily(kTraits, place) {}
+
+  static std::optional<ByLegs> ValuesAt(Instant* at) {
+    const auto loads = LoadsAt(at);
+    if (!loads) return std::nullopt;
+    return TorquesAt(*at->dynamics(), *loads);
+  }
+  static double Limit(const Instant&, const LegJoint& joint) { return joint.max_torque; }
+  static const ByLegs& Slopes(Instant* at, const SlackSink& rows, size_t i,
+                              std::vector<ByLegs>* made) {
+    if (made->empty()) *made = TorqueSlopes(at, *LoadsAt(at), rows);
+    return (*made)[i];
+  }
+
+ protected:
+  void AddBounds(const MarginInterval& interval, TightestStatement* tightest) const override {
+    Instant& mid = interval.mid;
+    const double rounding = place().rounding.torque;
+    const bool demanded = mid.demanded(family()) != kNotDemanded;
+    const auto loads = demanded ? LoadsAt(&mid) : std::nullopt;
+    if (!loads) {
+      for (int i = 0; i < count(); ++i) {
+        tightest->Add(Of(demanded ? -kUnlimited : kUnlimited, i), rounding);
+      }
+      return;
+    }
+    const ByLegs torques = TorquesAt(*mid.dynamics(), *loads);
+    const Margin least = LeastOf(mid, torques);
+    if (!(least.value >= mid.demanded(family()))) {
+      tightest->Add(least, 0.0);
+      return;
+    }
+    const bool both = mid.step_in_air() < 0;
+    const TorqueDrift drift(interval.motion, interval.drift(), *mid.dynamics(), *loads,
+                            both ? interval.zmp_drift().Most() : 0.0, kGravity);
+    const ByLegs drifts = {drift.Of(Side::kLeft), drift.Of(Side::kRight)};
+    ForEachJoint([&](size_t s, int j, const LegJoint& joint, int subject) {
+      tightest->Add(Of(Limit(mid, joint) - std::abs(torques[s][j]), subject),
+                    drifts[s][j] + rounding);
+    });
+  }
+};
+
 }  // namespace
 
-int TorqueMargin::count() const { return 12; }
-
-std::string TorqueMargin::Subject(const Margin& margin) const {
-  return JointName(place_.robot, margin);
-}
-
-double TorqueMargin::Limit(Side side, Eigen::Index joint) const {
-  return Nth(Nth(place_.robot.legs, Index(side)).joints, joint).max_torque;
-}
-
-Margin TorqueMargin::Least(Instant* at, double) const {
-  const auto loads = LoadsAt(at);
-  return loads ? LeastOf(at, *loads) : Of(-kUnlimited, -1);
-}
-
-Margin TorqueMargin::LeastOf(Instant* at, const FootLoads& loads) const {
-  Margin least = Of(kUnlimited, -1);
-  for (const Side side : {Side::kLeft, Side::kRight}) {
-    const Vector6d torques = TorquesAt(at, loads, side);
-    for (Eigen::Index j = 0; j < 6; ++j) {
-      Lower(Of(Limit(side, j) - std::abs(torques[j]), SubjectOf(side, j)), &least);
-    }
-  }
-  return least;
-}
-
-void TorqueMargin::AddRows(Instant* at, SlackSink* rows) const {
-  if (at->demanded(family()) == kNotDemanded) return;
-  const auto loads = LoadsAt(at);
-  if (!loads) return;
-  std::vector<std::array<Vector6d, 2>> slopes;  // made when a row needs them
-  for (const Side side : {Side::kLeft, Side::kRight}) {
-    const Vector6d torques = TorquesAt(at, *loads, side);
-    for (Eigen::Index j = 0; j < 6; ++j) {
-      const double sign = torques[j] < 0.0 ? -1.0 : 1.0;
-      rows->Add(Limit(side, j) - std::abs(torques[j]), [&](size_t i) {
-        if (slopes.empty()) slopes = SlopesAt(at, *loads, *rows);
-        return -sign * Nth(slopes[i], Index(side))[j];
-      });
-    }
-  }
-}
-
-void TorqueMargin::AddBounds(const MarginInterval& interval, TightestStatement* tightest) const {
-  Instant& mid = interval.mid;
-  const bool demanded = mid.demanded(family()) != kNotDemanded;
-  const auto loads = demanded ? LoadsAt(&mid) : std::nullopt;
-  if (!loads) {
-    for (int i = 0; i < count(); ++i) {
-      tightest->Add(Of(demanded ? -kUnlimited : kUnlimited, i), place_.rounding.torque);
-    }
-    return;
-  }
-  const Margin least = LeastOf(&mid, *loads);
-  if (!(least.value >= mid.demanded(family()))) {
-    tightest->Add(least, 0.0);
-    return;
-  }
-  const bool both = mid.step_in_air() < 0;
-  const TorqueDrift drift(interval.motion, interval.drift(), *mid.dynamics(), *loads,
-                          both ? interval.zmp_drift().Most() : 0.0, kGravity);
-  for (const Side side : {Side::kLeft, Side::kRight}) {
-    const Vector6d torques = TorquesAt(&mid, *loads, side), drifts = drift.Of(side);
-    for (Eigen::Index j = 0; j < 6; ++j) {
-      tightest->Add(Of(Limit(side, j) - std::abs(torques[j]), SubjectOf(side, j)),
-                    drifts[j] + place_.rounding.torque);
-    }
-  }
-}
+const FamilyClass& ClassOf(TagOf<TorqueMargin>) { return kClassOf<TorqueMargin>; }
 
 }  // namespace halfstep

@@ -1,48 +1,72 @@
-#include "smoothing/margins/zmp_margin.h"
-
-#include <limits>
-
+#include "smoothing/margins/family_class.h"
 #include "smoothing/margins/support_edges.h"
+#include "smoothing/margins/support_family.h"
 #include "wpg/geometry/support_polygon.h"
 
 namespace halfstep {
+namespace {
 
-int ZmpMargin::count() const { return 1; }
+// Distance of the ZMP inside the support polygon [m], negative outside.
+class ZmpMargin final : public SupportFamily {
+ public:
+  static constexpr FamilyTraits kTraits = {
+      .family = MarginFamily::kZmp,
+      .name = "zmp",
+      .unit = "m",
+      .key = "zmp_m",
+      .meaning = "ZMP inside the support polygon",
+      .remedy =
+          "a longer `half_step.duration_s` (the shorter a half-step, the farther the ZMP leaves "
+          "the soles)",
+      .sentence = {"the ZMP is {amount} inside the support polygon",
+                   "the ZMP is {amount} outside the support polygon"},
+      .coverage = kAlwaysCovered,
+      .scope = MarginScope::kRobot,
+      .scale = 0.01,
+      .demanded = 0.01,
+      .raised = true,
+      .cost = MarginCost::kWalk,
+      .row = MarginFamily::kZmp,
+  };
 
-std::string ZmpMargin::Subject(const Margin& margin) const {
-  return margin.subject < 0 ? "both soles" : "support sole";
-}
+  explicit ZmpMargin(const MarginPlace&) : SupportFamily(kTraits) {}
 
-Margin ZmpMargin::Least(Instant* at, double) const {
-  const WalkState& x = at->jet().value;
-  const SupportPolygon polygon = SupportAt(at->walk(), at->at(), x, at->robot().sole_size);
-  Margin least = Of(std::numeric_limits<double>::infinity(), -1);
-  Lower(Of(polygon.Margin(x.segment<2>(kZmpX)), at->step_in_air()), &least);
-  return least;
-}
+  Margin Least(Instant* at, double) const override {
+    const WalkState& x = at->jet().value;
+    const SupportPolygon polygon = SupportAt(at->walk(), at->at(), x, at->robot().sole_size);
+    Margin least = Of(kUnlimited, -1);
+    Lower(Of(polygon.Margin(x.segment<2>(kZmpX)), at->step_in_air()), &least);
+    return least;
+  }
 
-void ZmpMargin::AddRows(Instant* at, SlackSink* rows) const {
-  const WalkState& x = at->jet().value;
-  const SupportEdges edges(at->walk(), at->at(), x, at->robot().sole_size);
-  const Eigen::Vector2d zmp = x.segment<2>(kZmpX);
-  edges.ForEach([&](int i, const Eigen::Vector2d& inward) {
-    rows->Add(edges.Inside(i, inward, zmp), [&](size_t p) {
-      const WalkSensitivity& along = rows->sensitivities[p];
-      return edges.Slope(i, inward, zmp, along.jet.value.segment<2>(kZmpX), along);
+  void AddRows(Instant* at, SlackSink* rows) const override {
+    const WalkState& x = at->jet().value;
+    const SupportEdges edges(at->walk(), at->at(), x, at->robot().sole_size);
+    const Eigen::Vector2d zmp = x.segment<2>(kZmpX);
+    edges.ForEach([&](int i, const Eigen::Vector2d& inward) {
+      rows->Add(edges.Inside(i, inward, zmp), [&](size_t p) {
+        const WalkSensitivity& along = rows->sensitivities[p];
+        return edges.Slope(i, inward, zmp, along.jet.value.segment<2>(kZmpX), along);
+      });
     });
-  });
-}
+  }
 
-void ZmpMargin::AddBounds(const MarginInterval& interval, TightestStatement* tightest) const {
-  const IntervalMotion& motion = interval.motion;
-  const double h = motion.half_width;
-  const double change = h * (motion.jet.first.segment<2>(kZmpX).norm() +
-                             0.5 * h * motion.second.segment<2>(kZmpX).norm());
-  const WalkState& x = motion.jet.value;
-  const SupportPolygon polygon =
-      SupportAt(interval.mid.walk(), interval.mid.at(), x, interval.mid.robot().sole_size);
-  tightest->Add(Of(polygon.Margin(x.segment<2>(kZmpX)), interval.mid.step_in_air()),
-                change + interval.mid.rounding());
-}
+ protected:
+  void AddBounds(const MarginInterval& interval, TightestStatement* tightest) const override {
+    const IntervalMotion& motion = interval.motion;
+    const double h = motion.half_width;
+    const double change = h * (motion.jet.first.segment<2>(kZmpX).norm() +
+                               0.5 * h * motion.second.segment<2>(kZmpX).norm());
+    const WalkState& x = motion.jet.value;
+    const SupportPolygon polygon =
+        SupportAt(interval.mid.walk(), interval.mid.at(), x, interval.mid.robot().sole_size);
+    tightest->Add(Of(polygon.Margin(x.segment<2>(kZmpX)), interval.mid.step_in_air()),
+                  change + interval.mid.rounding());
+  }
+};
+
+}  // namespace
+
+const FamilyClass& ClassOf(TagOf<ZmpMargin>) { return kClassOf<ZmpMargin>; }
 
 }  // namespace halfstep

@@ -66,6 +66,16 @@ void Methods::Add(std::shared_ptr<const Smoother> smoother) {
   }
 }
 
+void Methods::AddMargin(std::shared_ptr<const OwnStatement> margin) {
+  margins_.push_back(std::move(margin));
+}
+
+void Methods::AddCost(std::shared_ptr<const WalkCost> cost) {
+  const auto same = std::ranges::find_if(
+      costs_, [&](const WeightedWalkCost& known) { return known.cost->name() == cost->name(); });
+  (same == costs_.end() ? costs_.emplace_back() : *same).cost = std::move(cost);
+}
+
 std::vector<std::string> Methods::Names() const {
   std::vector<std::string> names;
   for (const auto& smoother : all_) names.push_back(smoother->name());

@@ -6,12 +6,14 @@
 #include <vector>
 
 #include "opt/solvers/solver.h"
+#include "smoothing/margins/own_margin.h"
 #include "smoothing/methods/smoother.h"
+#include "smoothing/program/walk_cost.h"
 
 namespace halfstep {
 
-/// The methods that a config may name. A value: a program takes Standard(), adds its own, and hands
-/// it to what reads configs.
+/// The methods that a config may name, and what a program adds to what they heed: margins and
+/// costs. A value: a program takes Standard(), adds its own, and hands it to what reads configs.
 class Methods {
  public:
   /// The dichotomy and its variants, references, and one method for each solver that is compiled
@@ -30,6 +32,16 @@ class Methods {
   /// is built in.
   void AddSolver(std::shared_ptr<const opt::Solver> solver);
 
+  /// Adds a margin of one's own (not null) to the family `own`: what configs then demand by
+  /// `smoothing.margins.own`.
+  void AddMargin(std::shared_ptr<const OwnStatement> margin);
+  /// Adds a cost of one's own (not null), in place of an earlier one of that name: a key of
+  /// `smoothing.optimizer.weights`.
+  void AddCost(std::shared_ptr<const WalkCost> cost);
+
+  const OwnMargins& own_margins() const { return margins_; }  ///< those that were added, in order
+  /// The same of costs, each of weight 0.
+  const std::vector<WeightedWalkCost>& own_costs() const { return costs_; }
   /// The solvers that were added.
   const std::vector<std::shared_ptr<const opt::Solver>>& own_solvers() const& { return solvers_; }
   /// All methods, those that were added last.
@@ -50,6 +62,8 @@ class Methods {
   std::vector<std::shared_ptr<const Smoother>> all_;
   size_t built_in_;  // so many of them
   std::vector<std::shared_ptr<const opt::Solver>> solvers_;
+  OwnMargins margins_;
+  std::vector<WeightedWalkCost> costs_;
 };
 
 }  // namespace halfstep

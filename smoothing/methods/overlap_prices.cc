@@ -70,7 +70,7 @@ void AddMultipliers(const OverlapProgram& program, const HomotopyParameters& par
     bool active = false, moves = false;
     for (int row = 0; row < program.watched().rows(); ++row) {
       const int after = program.watched().half_step_of(row) - static_cast<int>(j);
-      const bool same = WatchedInstants::family_of(row) == Traits(junction.limited_by->family).row;
+      const bool same = program.watched().family_of(row) == Traits(junction.limited_by->family).row;
       if (!same || after < 0 || after > 1) continue;
       sum += std::abs(at.multipliers[row]);
       if (rows[row] - problem.constraint_lower()[row] > kActive) continue;

@@ -16,20 +16,14 @@ void DeclareWeights(Fields& fields, EffortWeights* w) {
   weight("foot_speed", &w->foot_speed, "of ∫‖v‖² dt of both soles", "s²/m²");
 }
 
-// A weight for each cost that the program itself registered.
+// A weight for each cost that the program itself adds.
 void DeclareOwnCosts(Fields& fields, std::vector<WeightedWalkCost>* costs) {
-  std::vector<WeightedWalkCost> weighed;
-  for (const auto& cost : WalkCosts()) {
-    WeightedWalkCost own{.cost = cost};
-    for (const WeightedWalkCost& known : *costs) {
-      if (known.cost->name() == cost->name()) own.weight = known.weight;
-    }
-    const std::string name = cost->name(), meaning = cost->meaning(), unit = cost->unit();
+  for (WeightedWalkCost& own : *costs) {
+    const std::string name = own.cost->name(), meaning = own.cost->meaning(),
+                      unit = own.cost->unit();
     fields.Number(name.c_str(), &own.weight,
                   {.meaning = meaning.c_str(), .unit = unit.c_str(), .min = 0, .max = 1e6});
-    if (own.weight != 0.0) weighed.push_back(std::move(own));
   }
-  *costs = std::move(weighed);
 }
 
 bool OfHalfSteps(const ParameterFamilyTraits& traits) {

@@ -51,7 +51,7 @@ double CostOf(const HalfStepSequence& sequence, const HomotopyParameters& parame
   const SuperposedWalk walk(sequence, parameters);
   cost += WeightedEffort(walk, options.weights, nullptr);
   for (const WeightedWalkCost& own : options.own_costs) {
-    cost += own.weight * own.cost->Evaluate(walk, nullptr);
+    if (own.weight != 0.0) cost += own.weight * own.cost->Evaluate(walk, nullptr);
   }
   return cost;
 }
@@ -103,7 +103,7 @@ opt::Problem OverlapProgram::MakeProblem() const {
       problem.AddCost(MakeDurationCost(*this), 1.0);
       problem.AddCost(MakeEffortCost(*this), 1.0);
       for (const WeightedWalkCost& own : options_.own_costs) {
-        problem.AddCost(MakeOwnCost(*this, own.cost), own.weight);
+        if (own.weight != 0.0) problem.AddCost(MakeOwnCost(*this, own.cost), own.weight);
       }
       break;
     case ProgramKind::kSafest:

@@ -57,12 +57,12 @@ class SlackBlock : public opt::ConstraintBlock {
     }
   }
   std::string RowName(int row) const override {
-    return std::string(Name(WatchedInstants::family_of(row))) + " in half-step " +
+    return std::string(Name(program_.watched().family_of(row))) + " in half-step " +
            std::to_string(program_.watched().half_step_of(row) + 1);
   }
 
  private:
-  static bool IsRaised(int row) { return Traits(WatchedInstants::family_of(row)).raised; }
+  bool IsRaised(int row) const { return Traits(program_.watched().family_of(row)).raised; }
 
   // Raised slacks less z.
   Eigen::VectorXd Lowered(Eigen::VectorXd slacks, const Eigen::VectorXd& x) const {

@@ -23,16 +23,10 @@ class WalkCost {
   virtual double Evaluate(const SuperposedWalk& walk, ParameterGradient* gradient) const = 0;
 };
 
-/// Makes a cost known by its name, in place of an earlier one of that name. Before configs are read
-/// that give it a weight, and not while another thread smooths.
-void RegisterWalkCost(std::shared_ptr<const WalkCost> cost);
-/// Those that are registered, in that order.
-const std::vector<std::shared_ptr<const WalkCost>>& WalkCosts();
-
-/// A registered cost and its weight.
+/// A cost of one's own and its weight.
 struct WeightedWalkCost {
   std::shared_ptr<const WalkCost> cost;  ///< not null
-  double weight = 0.0;                   ///< of its value, beside the duration [s]
+  double weight = 0.0;                   ///< of its value, beside the duration [s]; 0: left out
 };
 
 }  // namespace halfstep

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "smoothing/program/row_order.h"
 #include "smoothing/program/soft_minimum.h"
 #include "wpg/nth.h"
 
@@ -35,6 +34,7 @@ WatchedInstants::WatchedInstants(const OverlapVariables& variables,
                                  const MarginEvaluator& evaluator, const WatchOptions& options)
     : variables_(variables),
       evaluator_(evaluator),
+      order_(evaluator.families()),
       options_(options),
       reserves_(variables.sequence().size(), NumRowFamilies(), kReserve / options.sharpness) {
   for (int v = 0; v < variables.size() && !footsteps_move_; ++v) {
@@ -94,12 +94,6 @@ void WatchedInstants::CountRows() {
                            : 1;
     first_rows_.push_back(first_rows_.back() + groups * NumRowFamilies());
   }
-}
-
-int WatchedInstants::NumRowFamilies() { return static_cast<int>(RowFamilies().size()); }
-
-MarginFamily WatchedInstants::family_of(int row) {
-  return Nth(RowFamilies(), row % NumRowFamilies());
 }
 
 int WatchedInstants::half_step_of(int row) const {
@@ -196,7 +190,7 @@ void WatchedInstants::EvaluateHalfStep(const SuperposedWalk& walk, const Eigen::
       for (const auto& [parameter, slope] : instant.times) add(parameter, slope, later);
     }
     for (size_t r = 0; r < instant.rows.size(); ++r) {
-      const int place = RowOf(instant.rows[r].family);
+      const int place = order_.row(instant.rows[r].family);
       SoftMinimum& minimum = Nth(minima, place);
       const double weight = minimum.Add(instant.rows[r].slack, rho);
       if (!nonzeros || weight < 1e-9) continue;

@@ -7,6 +7,7 @@
 
 #include "smoothing/margins/slack_evaluator.h"
 #include "smoothing/program/overlap_variables.h"
+#include "smoothing/program/row_order.h"
 #include "smoothing/program/row_reserves.h"
 #include "smoothing/program/slack_samples.h"
 #include "smoothing/walk/stop_branches.h"
@@ -51,8 +52,8 @@ class WatchedInstants {
   int rows() const { return first_rows_.back(); }  ///< number of rows
   int half_step_of(int row) const;                 ///< k of a row
   /// The family of a row; a half-step, or an instant, has one for each family that has its own.
-  static MarginFamily family_of(int row);
-  static int NumRowFamilies();  ///< how many families have a row of their own
+  MarginFamily family_of(int row) const { return order_.family(row); }
+  int NumRowFamilies() const { return order_.size(); }  ///< how many have a row of their own
   /// The variables on which the rows of a half-step depend (OverlapVariables::Band).
   const std::vector<int>& band(int half_step) const { return Nth(bands_, half_step); }
   /// Number of entries of the Jacobian: every row has those of its band.
@@ -132,6 +133,7 @@ class WatchedInstants {
 
   const OverlapVariables& variables_;
   const MarginEvaluator& evaluator_;
+  RowOrder order_;
   WatchOptions options_;
   bool footsteps_move_ = false;  // whether any is a variable
   Workers* workers_ = nullptr;

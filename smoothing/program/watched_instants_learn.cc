@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "smoothing/program/row_order.h"
 #include "smoothing/program/slack_samples.h"
 #include "smoothing/program/watched_instants.h"
 #include "wpg/nth.h"
@@ -114,8 +113,9 @@ void WatchedInstants::NoteRows(const SuperposedWalk& walk, double level) {
 
 void WatchedInstants::NoteSample(int half_step, const LeastSlacks& slacks, double level) {
   for (const MarginFamily family : AllMarginFamilies()) {
-    if (RowOf(family) < 0) continue;
-    double& least = Nth(seen_.samples, half_step * NumRowFamilies() + RowOf(family));
+    const int row = order_.row(family);
+    if (row < 0) continue;
+    double& least = Nth(seen_.samples, half_step * NumRowFamilies() + row);
     least = std::min(least, Nth(slacks, family) - level);
   }
 }
@@ -124,9 +124,8 @@ void WatchedInstants::LearnReserves(bool tried, const std::vector<Margin>& refus
   if (seen_.rows.empty()) return;
   std::vector<RowReserves::Place> refused;
   for (const Margin& refusal : refusals) {
-    if (RowOf(refusal.family) >= 0) {
-      refused.emplace_back(refusal.at.half_step, RowOf(refusal.family));
-    }
+    const int row = order_.row(refusal.family);
+    if (row >= 0) refused.emplace_back(refusal.at.half_step, row);
   }
   reserves_.Learn(seen_, refused, tried && refused.size() == refusals.size());
 }

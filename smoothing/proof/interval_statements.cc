@@ -9,12 +9,12 @@ namespace {
 bool IsDistance(MarginFamily family) { return Traits(family).cost >= MarginCost::kObstacles; }
 
 // In their own order, distances last.
-std::vector<MarginFamily> ProofOrder() {
+std::vector<MarginFamily> ProofOrder(const MarginEvaluator& evaluator) {
   std::vector<MarginFamily> order;
-  for (const MarginFamily family : AllMarginFamilies()) {
+  for (const MarginFamily family : evaluator.families()) {
     if (!IsDistance(family)) order.push_back(family);
   }
-  for (const MarginFamily family : FamiliesByCost()) {
+  for (const MarginFamily family : evaluator.families_by_cost()) {
     if (IsDistance(family)) order.push_back(family);
   }
   return order;
@@ -24,7 +24,7 @@ std::vector<MarginFamily> ProofOrder() {
 
 IntervalStatements::IntervalStatements(MarginEvaluator evaluator)
     : evaluator_(std::move(evaluator)), bounds_(evaluator_.robot()) {
-  for (const MarginFamily family : ProofOrder()) {
+  for (const MarginFamily family : ProofOrder(evaluator_)) {
     for (int group = 0; group < evaluator_.statements(family).groups(); ++group) {
       all_.push_back({family, static_cast<uint16_t>(group)});
     }

@@ -33,8 +33,6 @@ bool SameDemand(const Margin& a, const Margin& b) {
          a.stop_after == b.stop_after;
 }
 
-bool IsFoot(const RobotBody& body) { return body.leg >= 0 && body.link == 5; }
-
 // The latest step that has put `side` on the floor at `at`, where it stands; −1: it has not moved.
 int StepThatPlaced(const SuperposedWalk& walk, const LocalTime& at, Side side) {
   const double t = walk.Absolute(at);
@@ -109,7 +107,7 @@ class Survey {
     for (int i = 0; i <= n; ++i) {
       const LocalTime at = walk_.Locate(std::min(walk_.duration(), i * period));
       Instant instant(evaluator_.place(), evaluator_.limits(), walk_, at, &scratch_);
-      for (const MarginFamily family : FamiliesByCost()) NoteNews(family, &instant);
+      for (const MarginFamily family : evaluator_.families_by_cost()) NoteNews(family, &instant);
     }
   }
   // Distances are only compared with what is demanded, which is quick, unless there is news.
@@ -172,28 +170,9 @@ class Survey {
 
   // The feet that a margin is about where they stand; none: it is about how something moves.
   std::vector<Side> StandingFeet(const Margin& margin) const {
-    std::vector<Side> feet;
-    const auto add = [&](Side side) {
-      if (!walk_.InAir(margin.at, side)) feet.push_back(side);
-    };
-    const auto add_body = [&](int index) {
-      if (index < 0) return;
-      const RobotBody& body = Nth(evaluator_.robot().bodies, index);
-      if (IsFoot(body)) add(static_cast<Side>(body.leg));
-    };
-    if (margin.family == MarginFamily::kNoStep) {
-      if (margin.subject >= 0) add(static_cast<Side>(margin.subject));
-    } else if (margin.family == MarginFamily::kClearance) {
-      const auto& obstacles = evaluator_.scene().obstacles;
-      const bool rests = margin.other >= 0 && Nth(obstacles, margin.other).rests();
-      if (rests) add_body(margin.subject);
-    } else if (margin.family == MarginFamily::kGround) {
-      add_body(margin.subject);
-    } else if (margin.family == MarginFamily::kSelfClearance) {
-      add_body(margin.subject);
-      add_body(margin.other);
-      if (feet.size() < 2) feet.clear();  // the other body moves
-    }
+    std::vector<Side> feet = evaluator_.statements(margin.family).PlacedFeet(margin);
+    const auto in_air = [&](Side side) { return walk_.InAir(margin.at, side); };
+    if (std::ranges::any_of(feet, in_air)) feet.clear();
     return feet;
   }
   void Blame(MissedDemand* demand) const {

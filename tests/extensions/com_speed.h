@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -11,7 +10,7 @@ namespace halfstep {
 
 inline constexpr double kComSpeedLimit = 0.27;  // [m/s]
 
-/// The margin that this test program registers: the CoM is never faster than kComSpeedLimit.
+/// A margin of one's own: the CoM is never faster than kComSpeedLimit.
 class ComSpeedStatement : public OwnStatement {
  public:
   std::string name() const override { return "CoM's speed"; }
@@ -33,11 +32,5 @@ class ComSpeedStatement : public OwnStatement {
  private:
   static Eigen::Vector2d Velocity(const WalkJet& jet) { return jet.first.segment<2>(kComX); }
 };
-
-/// Registered before main(), as margins must be.
-inline const bool kComSpeedIsRegistered = [] {
-  RegisterOwnMargin(std::make_unique<ComSpeedStatement>());
-  return true;
-}();
 
 }  // namespace halfstep

@@ -5,8 +5,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <stdexcept>
+#include <memory>
+#include <vector>
 
+#include "experiments/config/experiment.h"
 #include "experiments/run/smoothing_of.h"
 #include "opt/problem/derivative_check.h"
 #include "smoothing/methods/methods.h"
@@ -14,7 +16,7 @@
 #include "smoothing/program/overlap_program.h"
 #include "smoothing/proof/certified_feasibility.h"
 #include "tests/extensions/com_speed.h"
-#include "tests/scenarios/load_experiment.h"
+#include "wpg/files/input_error.h"
 
 namespace halfstep {
 namespace {
@@ -27,9 +29,20 @@ double FastestCom(const SuperposedWalk& walk) {
   return fastest;
 }
 
+Methods WithComSpeed() {
+  Methods methods = Methods::Standard();
+  methods.AddMargin(std::make_shared<ComSpeedStatement>());
+  return methods;
+}
+
+ExperimentConfig Load(const std::vector<YamlOverride>& overrides, const Methods& methods) {
+  return LoadConfig(HALFSTEP_SOURCE_DIR "/experiments/configs/fig3_two_half_steps.yaml", overrides,
+                    methods);
+}
+
 class OwnMarginTest : public testing::Test {
  protected:
-  Experiment experiment_ = LoadExperiment("fig3_two_half_steps");
+  Experiment experiment_ = Prepare(Load({}, WithComSpeed()));
   WalkProblem problem_ = ProblemOf(experiment_);
 
   SmoothingResult Smoothed(const std::string& method) const {
@@ -99,9 +112,15 @@ TEST_F(OwnMarginTest, RowsHaveItsDerivatives) {
   EXPECT_TRUE(there);
 }
 
-TEST_F(OwnMarginTest, ComesTooLateWhenMarginsAreInUse) {
-  EXPECT_THROW(RegisterOwnMargin(std::make_unique<ComSpeedStatement>()), std::logic_error);
-  EXPECT_EQ(OwnMargins().size(), 1u);
+TEST_F(OwnMarginTest, IsThereOnlyForThoseWhoAddIt) {
+  const std::vector<YamlOverride> demanded = {{"smoothing.margins.own", "2"}};
+  EXPECT_EQ(Load(demanded, WithComSpeed()).smoothing.limits.demanded_of(MarginFamily::kOwn), 2.0);
+  EXPECT_THROW(Load(demanded, Methods::Standard()), InputError);
+  const WalkProblem without = ProblemOf(Prepare(Load({}, Methods::Standard())));
+  EXPECT_THAT(without.evaluator().families(), testing::Not(testing::Contains(MarginFamily::kOwn)));
+  EXPECT_THAT(problem_.evaluator().families(), testing::Contains(MarginFamily::kOwn));
+  const MarginEvaluator other = problem_.evaluator().WithLimits({});  // stays what it judges
+  EXPECT_EQ(other.limits().own.size(), 1u);
 }
 
 }  // namespace

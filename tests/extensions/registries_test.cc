@@ -150,15 +150,21 @@ class LongHalfSteps : public WalkCost {
   }
 };
 
-TEST(RegisterWalkCost, IsAWeightOfTheProgramSmooth) {
+TEST(OwnCosts, AreWeightsOfTheProgramSmooth) {
   const std::vector<YamlOverride> weighed = {{"smoothing.optimizer.program", "smooth"},
                                              {"smoothing.optimizer.durations", "true"},
                                              {"smoothing.optimizer.weights.long_half_steps", "3"}};
   EXPECT_THROW(WithOptions(weighed), InputError);
-  RegisterWalkCost(std::make_shared<LongHalfSteps>());
-  EXPECT_TRUE(
-      WithOptions({}).smoothing.options.Get(OptimizerGroup()).options.program.own_costs.empty());
-  const Experiment experiment = Prepare(WithOptions(weighed));
+  Methods methods = Methods::Standard();
+  methods.AddCost(std::make_shared<LongHalfSteps>());
+  methods.AddCost(std::make_shared<LongHalfSteps>());
+  EXPECT_EQ(methods.own_costs().size(), 1u);
+  EXPECT_EQ(WithOptions({}, methods)
+                .smoothing.options.Get(OptimizerGroup())
+                .options.program.own_costs.front()
+                .weight,
+            0.0);
+  const Experiment experiment = Prepare(WithOptions(weighed, methods));
   const WalkProblem walk = ProblemOf(experiment);
   const ProgramOptions options =
       experiment.config.smoothing.options.Get(OptimizerGroup()).options.program;

@@ -1,12 +1,10 @@
 // Names of methods, planners and programs for the readers of configs, without what they name.
 
 #include "planner/search/planner_registry.h"
-#include "smoothing/margins/own_margin.h"
 #include "smoothing/methods/dichotomy.h"
 #include "smoothing/methods/horizon.h"
 #include "smoothing/methods/methods.h"
 #include "smoothing/methods/solver_method_options.h"
-#include "smoothing/program/walk_cost.h"
 
 namespace halfstep {
 
@@ -47,16 +45,6 @@ std::string_view Name(ProgramKind kind) {
   return kind == ProgramKind::kFastest  ? "fastest"
          : kind == ProgramKind::kSmooth ? "smooth"
                                         : "safest";
-}
-
-const std::vector<std::unique_ptr<const OwnStatement>>& OwnMargins() {
-  static const std::vector<std::unique_ptr<const OwnStatement>> none;
-  return none;
-}
-
-const std::vector<std::shared_ptr<const WalkCost>>& WalkCosts() {
-  static const std::vector<std::shared_ptr<const WalkCost>> none;
-  return none;
 }
 
 }  // namespace halfstep

@@ -206,7 +206,7 @@ TEST(MovingScenes, RowsOfTheProgramAgreeWithDifferences) {
       }
       ++compared;
       EXPECT_NEAR(analytic, fine[row], 5e-3 * size)
-          << Name(WatchedInstants::family_of(row)) << " in half-step " << half_step;
+          << Name(table.family_of(row)) << " in half-step " << half_step;
       // The control: the band of obstacles that rest.
       caught += std::abs(near_only - fine[row]) > 5e-3 * size;
     }

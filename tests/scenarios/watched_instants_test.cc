@@ -95,14 +95,13 @@ class WatchedInstantsTest : public testing::Test {
         ++compared;
         // The normal of a distance is known to some 10⁻³ rad, as exactly as the distance is found;
         // along it nothing is lost, across it some percent in some rows.
-        const bool distance =
-            Traits(WatchedInstants::family_of(row)).cost >= MarginCost::kObstacles;
+        const bool distance = Traits(table.family_of(row)).cost >= MarginCost::kObstacles;
         if (distance && std::abs(analytic - fine[row]) > 5e-3 * size) {
           ++off;
           continue;
         }
         EXPECT_NEAR(analytic, fine[row], 5e-3 * size)
-            << Name(WatchedInstants::family_of(row)) << " in half-step " << table.half_step_of(row);
+            << Name(table.family_of(row)) << " in half-step " << table.half_step_of(row);
         caught += std::abs(-analytic - fine[row]) > 5e-3 * size;
       }
     }
@@ -131,8 +130,7 @@ TEST_F(WatchedInstantsTest, OutsideOfItsBandAVariableChangesNothingAtAll) {
     table_.Evaluate(y, &after, nullptr);
     for (int k = 0; k < e_.sequence.size(); ++k) {
       const std::vector<int>& band = table_.band(k);
-      const auto rows =
-          Eigen::seqN(k * WatchedInstants::NumRowFamilies(), WatchedInstants::NumRowFamilies());
+      const auto rows = Eigen::seqN(k * table_.NumRowFamilies(), table_.NumRowFamilies());
       if (std::find(band.begin(), band.end(), v) != band.end()) {
         changed += (before(rows) - after(rows)).norm() > 0;
         continue;
@@ -264,7 +262,7 @@ TEST_F(WatchedInstantsTest, ARefusalCostsOnlyTheRowsOfItsHalfStep) {
     const double change = before[row] - after[row];
     if (table.half_step_of(row) != 2) {
       EXPECT_EQ(change, 0.0) << row;
-    } else if (WatchedInstants::family_of(row) == MarginFamily::kZmp) {
+    } else if (table.family_of(row) == MarginFamily::kZmp) {
       EXPECT_NEAR(change, 3.0 / table.sharpness(), 1e-9) << row;
       ++lower;
     } else {

@@ -107,7 +107,7 @@ TEST(CertificateRows, HoldInsideWholeCertificates) {
     }
   }
   EXPECT_GE(certified, Draws(6));
-  for (MarginFamily family : AllMarginFamilies()) {
+  for (const MarginFamily family : FamiliesWith({})) {
     if (family == MarginFamily::kNoStep) continue;  // there are none; soles that stand do not move
     EXPECT_GT(tally.rows[static_cast<size_t>(family)], Draws(100)) << Name(family);
     // So near that half a bound, or a term forgotten, would show. The legs' inertia has its bound
@@ -289,7 +289,7 @@ TEST(CertificateRows, AreGivenWhereTheyKeepWhatIsDemandedAndOnlyThere) {
     const auto [begin, end] = DrawInterval(walk, &draw);
     MarginLimits limits = Undemanding();
     const MarginEvaluator undemanding(robot, scene, limits);
-    for (MarginFamily family : AllMarginFamilies()) {
+    for (const MarginFamily family : FamiliesWith({})) {
       const OpenGroups pending = pending_of(family);
       const CertificateRow row = RowOf(undemanding, walk, begin, end, pending);
       // Where little changes, and where an overlap or the horizon hides the margin, nothing is
@@ -314,7 +314,7 @@ TEST(CertificateRows, AreGivenWhereTheyKeepWhatIsDemandedAndOnlyThere) {
       ++refused[static_cast<size_t>(family)];
     }
   }
-  for (MarginFamily family : AllMarginFamilies()) {
+  for (const MarginFamily family : FamiliesWith({})) {
     // These scenes have no areas; soles that stand do not move, so there is nothing to bound.
     if (family == MarginFamily::kNoStep) continue;
     EXPECT_GT(refused[static_cast<size_t>(family)], Draws(10)) << Name(family);

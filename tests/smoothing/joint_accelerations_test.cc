@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "opt/problem/derivative_check.h"
-#include "smoothing/margins/joint_acceleration_margin.h"
 #include "smoothing/margins/slack_evaluator.h"
 #include "smoothing/proof/certified_feasibility.h"
 #include "smoothing/proof/interval_statements.h"

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "planner/collision/separation.h"
+#include "smoothing/margins/family_class.h"
 #include "smoothing/proof/certified_feasibility.h"
 #include "tests/smoothing/test_scenes.h"
 #include "tests/smoothing/test_walks.h"
@@ -324,11 +325,11 @@ TEST_F(MarginEvaluatorTest, DescribesAMarginWithItsOwnerPlaceAndDemand) {
   EXPECT_EQ(evaluator.Subject({.family = MarginFamily::kReach, .subject = 3}), "left leg");
 }
 
-TEST(MarginFamilies, HaveNamesUnitsAndScales) {
+TEST(MarginFamilies, AreThoseOfTheirClassesInOrder) {
+  const MarginEvaluator evaluator(Hrp2(), {}, {});
   for (MarginFamily family : AllMarginFamilies()) {
-    EXPECT_FALSE(Name(family).empty());
-    EXPECT_FALSE(Unit(family).empty());
-    EXPECT_GT(Scale(family), 0.0);
+    EXPECT_EQ(Traits(family).family, family);
+    EXPECT_EQ(ClassOf(family).make(evaluator.place())->family(), family);
   }
   EXPECT_EQ(Name(MarginFamily::kClearance), "clearance");
   EXPECT_EQ(Unit(MarginFamily::kJointSpeed), "rad/s");

@@ -35,7 +35,7 @@ RobotModel KnownRobot() {
 TEST(NotCoveredBy, NamesEveryFamilyOfWhichNothingIsDemandedAndNoOther) {
   const RobotModel robot = KnownRobot();
   EXPECT_THAT(FamiliesIn(NotCoveredBy(robot, {}, {})), testing::IsEmpty());
-  for (const MarginFamily family : AllMarginFamilies()) {
+  for (const MarginFamily family : FamiliesWith({})) {
     MarginLimits limits;
     limits.demanded_of(family) = kNotDemanded;
     EXPECT_THAT(FamiliesIn(NotCoveredBy(robot, {}, limits)),
