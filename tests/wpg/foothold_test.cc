@@ -41,7 +41,7 @@ TEST(Foothold, OnlyALevelOneIsAPoseOfItsLevel) {
 TEST(Foothold, RaisesTheFeetOfAState) {
   WalkState x_S = WalkState::LinSpaced(0.1, 1.3);
   const Foothold X_AS({0.3, -0.1, 0.7}, 0.2);
-  WalkState x_A = Transformed(X_AS.Planar(), x_S);
+  WalkState x_A = Transformed(Foothold::Level(X_AS.Planar()), x_S);
   x_A[kLeftZ] += 0.2;
   x_A[kRightZ] += 0.2;
   EXPECT_EQ(Transformed(X_AS, x_S), x_A);
