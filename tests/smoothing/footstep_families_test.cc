@@ -82,7 +82,7 @@ TEST(MovedFootsteps, TurnAndMirrorWithThePlan) {
     const SuperposedWalk mirrored(Mirrored(sequence), Mirrored(parameters));
     const double t = draw.Uniform(0, walk.duration());
     const WalkState x = walk.At(t).value;
-    EXPECT_LT(Largest(turned.At(t).value - Transformed(X_VW, x)), 1e-12);
+    EXPECT_LT(Largest(turned.At(t).value - Transformed(Foothold::Level(X_VW), x)), 1e-12);
     EXPECT_LT(Largest(mirrored.At(t).value - Mirrored(x)), 1e-12);
   }
 }

@@ -280,7 +280,7 @@ TEST(SuperposedWalk, MirroredAndMovedSequencesWalkMirroredAndMoved) {
       EXPECT_EQ(m.value, Mirrored(x.value));
       EXPECT_EQ(m.first, Mirrored(x.first));
       EXPECT_EQ(m.second, Mirrored(x.second));
-      EXPECT_LT(Largest(v.value - Transformed(X_VW, x.value)), 1e-14);
+      EXPECT_LT(Largest(v.value - Transformed(Foothold::Level(X_VW), x.value)), 1e-14);
       EXPECT_LT(Largest(v.first - Rotated(X_VW, x.first)), 1e-13);
       EXPECT_LT(Largest(v.second - Rotated(X_VW, x.second)), 1e-14 * (100 + Largest(x.second)));
     }
