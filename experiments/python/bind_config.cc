@@ -38,7 +38,7 @@ py::object PlainValue(const std::string& text) {
   return py::str(text);
 }
 
-py::object ToPython(const YamlNode& node) {
+py::object NodeToPython(const YamlNode& node) {
   switch (node.kind) {
     case YamlNode::Kind::kNull:
       return py::none();
@@ -46,12 +46,12 @@ py::object ToPython(const YamlNode& node) {
       return node.quoted ? py::object(py::str(node.text)) : PlainValue(node.text);
     case YamlNode::Kind::kList: {
       py::list list;
-      for (const YamlNode& item : node.items) list.append(ToPython(item));
+      for (const YamlNode& item : node.items) list.append(NodeToPython(item));
       return list;
     }
     case YamlNode::Kind::kMap: {
       py::dict map;
-      for (const YamlNode& item : node.items) map[py::str(item.key)] = ToPython(item);
+      for (const YamlNode& item : node.items) map[py::str(item.key)] = NodeToPython(item);
       return map;
     }
   }
@@ -75,7 +75,7 @@ py::object Resolved(ExperimentConfig config) {
   YamlComplaints complaints("config");
   const YamlNode root = ParseYaml(text, "", &complaints);
   complaints.ThrowIfAny();
-  return ToPython(root);
+  return NodeToPython(root);
 }
 
 std::vector<YamlOverride> ToOverrides(const Overrides& overrides) {

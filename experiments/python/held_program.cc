@@ -11,7 +11,7 @@
 namespace halfstep::python {
 namespace {
 
-constexpr double kLookEvery = 0.005;  // [s]
+constexpr double kWatchEvery = 0.005;  // [s]
 // As in smoothing/methods/overlap_optimizer.cc.
 constexpr double kSharper = 1.5, kSofter = 0.75, kMostSharp = 3000.0;
 // A solver's step over a simple bound that counts as rounding.
@@ -141,7 +141,7 @@ Refinement HeldProgram::Refine(const Eigen::VectorXd& x, const std::stop_token& 
   const SuperposedWalk walk(walk_problem.sequence(), ToParameters(x));
   Refinement result;
   result.least_slack =
-      program_.watched().Focus(walk, kLookEvery, safest ? std::max(0.0, x.tail(1)[0]) : 0.0);
+      program_.watched().Focus(walk, kWatchEvery, safest ? std::max(0.0, x.tail(1)[0]) : 0.0);
   MarginEvaluator::Scratch scratch = walk_problem.evaluator().MakeScratch();
   scratch.stop = stop;
   StretchProofs proofs(walk_problem.test(), walk_problem.sequence().size());

@@ -27,6 +27,14 @@ bool IsVerified(const verify::VerifyOptions& options) {
   }
 }
 
+// Puts back the files that differ from what they were.
+void Restore(const fs::path& before, const fs::path& folder) {
+  for (const std::string& file : FilesBelow(before)) {
+    const std::string bytes = ReadText(before / file);
+    if (ReadText(folder / file) != bytes) WriteText(folder / file, bytes);
+  }
+}
+
 // Forges each value that is not on the list, by itself, and puts it back; the accepted ones.
 template <typename Tampered>
 std::string Accepted(const Tampered& tampered, const fs::path& folder, const std::string& method,
@@ -34,6 +42,9 @@ std::string Accepted(const Tampered& tampered, const fs::path& folder, const std
   std::string accepted;
   verify::VerifyOptions options{.run = folder.string()};
   if (!method.empty()) options.method = method;
+  EXPECT_TRUE(IsVerified(options)) << "before anything is forged";
+  const TemporaryFolder before;
+  fs::copy(folder, before.path(), fs::copy_options::recursive);
   for (const NamedValue& value : ValuesOf(folder, method)) {
     if (verify::FindNotExamined(list, value.file, value.name) != nullptr) continue;
     // Of raw verify is not asked.
@@ -42,27 +53,23 @@ std::string Accepted(const Tampered& tampered, const fs::path& folder, const std
     const std::string of = value.file + value.name;
     std::seed_seq seed(of.begin(), of.end());
     std::mt19937 random(seed);
-    const TemporaryFolder aside;
-    fs::copy(folder, aside / "before", fs::copy_options::recursive);
     std::string what = Forge(folder, value, &random);
     // Of raw verify is not asked, and its row is the first.
     while (value.file == "summary.csv" && what.starts_with("row 1:")) {
-      fs::copy(aside / "before/summary.csv", folder / "summary.csv",
-               fs::copy_options::overwrite_existing);
+      Restore(before.path(), folder);
       what = Forge(folder, value, &random);
     }
     if (what.empty()) continue;
     ++*tried;
     tampered.Rehash();
     if (IsVerified(options)) accepted += value.file + " " + value.name + ": " + what + "\n";
-    fs::remove_all(folder);
-    fs::copy(aside / "before", folder, fs::copy_options::recursive);
+    Restore(before.path(), folder);
   }
   return accepted;
 }
 
 TEST(Examined, EveryValueOfARunIsComputedAgainOrOnTheList) {
-  TamperedRun run;
+  TamperedRun run({.overrides = {"output.period_s=0.01"}});  // half the rows, half the time
   // Rows of methods that verify is not asked about.
   TamperedRun::EditCsv(run.run() / "summary.csv",
                        [](TamperedRun::Table& table) { ASSERT_EQ(table.size(), 3u); });

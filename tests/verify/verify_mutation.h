@@ -220,6 +220,8 @@ class TamperedRun {
     }
     const Outcome outcome = Halfstep(place, arguments);
     if (outcome.status != 0) throw std::runtime_error("halfstep run: " + outcome.err);
+    // The run has its own copies of what it used; each object would copy all of the rest.
+    for (const char* used : {"robots", "scenes", "configs"}) fs::remove_all(place / used);
   }
 
   static void EditJsonFile(const std::filesystem::path& path,
