@@ -9,6 +9,7 @@
 #include "experiments/config/experiment_config.h"
 #include "planner/scene/scene.h"
 #include "smoothing/margins/margin_evaluator.h"
+#include "smoothing/methods/plan_change.h"
 #include "wpg/geometry/foothold.h"
 #include "wpg/motion/half_step_sequence.h"
 #include "wpg/robot/robot_model.h"
@@ -50,6 +51,9 @@ HalfStep PrototypeOf(const ExperimentConfig& config);
 
 /// The half-steps of a config's footsteps; empty without footsteps.
 HalfStepSequence SequenceOf(const ExperimentConfig& config, const RobotModel& robot);
+/// The config whose plan goes another way: with these durations, heights and landings, of single
+/// footsteps or of `half_step`.
+ExperimentConfig Changed(ExperimentConfig config, const std::vector<PlanChange>& changes);
 /// Makes the experiment in a place that is loaded; without footsteps its sequence is empty.
 Experiment Prepare(const ExperimentConfig& config, Place place);
 /// The same, in the place that LoadPlace() loads. Throws InputError.

@@ -5,7 +5,7 @@
 
 #include "experiments/run/missed_demands_text.h"
 #include "experiments/run/plan_inputs.h"
-#include "experiments/run/plan_remedies.h"
+#include "experiments/run/plan_remedies_text.h"
 
 namespace halfstep {
 
@@ -15,7 +15,7 @@ InfeasibleWalk ExplainPlan(const Experiment& experiment, const WalkProblem& prob
                       .inputs = LookAtFootsteps(experiment, problem.evaluator()),
                       .missed = std::move(missed),
                       .help = {}};
-  walk.help = PlanRemedies(experiment, problem, walk.missed, stop);
+  walk.help = PlanRemediesText(experiment, problem, walk.missed, stop);
   if (!experiment.config.smoothing.repair_plan) {
     walk.help.push_back(
         "`smoothing.repair_plan: true` looks for durations and heights of single steps that help");

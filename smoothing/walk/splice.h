@@ -30,6 +30,9 @@ double AgreeUntil(const SuperposedWalk& a, const SuperposedWalk& b);
 /// Where the feet stand, by Index(Side), when half-step `last` has ended; the swing foot of an up
 /// half-step stands where it will land as planned.
 std::array<Foothold, 2> StanceAfter(const HalfStepSequence& sequence, int last);
+/// Half-steps `begin` … `end` − 1 by themselves, as they are planned: steps, from rest to rest.
+/// Precondition: both are even, 0 ≤ begin < end ≤ n.
+HalfStepSequence PlannedPart(const HalfStepSequence& sequence, int begin, int end);
 
 /// The walk in which half-step `last` + 1 begins at `begin` [s], and everything after it as much
 /// later. It agrees with `walk` until the earlier of both beginnings. Throws std::logic_error
@@ -44,8 +47,8 @@ WalkPlan Delayed(const WalkPlan& walk, int last, double begin);
 /// no footsteps after an up half-step, or the first is not of the foot that was lifted.
 WalkPlan Changed(const WalkPlan& walk, int last, const std::vector<Footstep>& footsteps);
 
-/// The parameters, of every family, of everything that has begun when half-steps 0 … `last` have, at
-/// their values. With them fixed, a method finds successors.
+/// The parameters, of every family, of everything that has begun when half-steps 0 … `last` have,
+/// at their values. With them fixed, a method finds successors.
 std::vector<FixedParameter> FixedByBeginning(const WalkPlan& walk, int last);
 
 }  // namespace halfstep
