@@ -217,7 +217,7 @@ void AddClosedForm(const RobotModel& robot, const Scene& scene, const fs::path& 
   (*one)["closed_form"] = ClosedFormJson(experiment.robot, experiment.sequence);
   for (json& walk : (*one)["walks"]) {
     const auto method = walk["summary"].at("method").get<std::string>();
-    walk["parameters"] = ParametersJson(folder / MethodFolder(method), experiment.sequence.size());
+    walk["parameters"] = ParametersJson(folder / MethodFolder(method), experiment.sequence);
   }
 }
 
