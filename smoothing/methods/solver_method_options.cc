@@ -43,24 +43,18 @@ bool NamesFamilyOfHalfSteps(const std::vector<std::string>& keys) {
   });
 }
 
-// What an earlier declaration chose, which did not read, is nothing that a file says.
-void ForgetFamiliesOfHalfSteps(SolverMethodOptions* c) {
-  ParameterChoice* const choice = &c->options.program.parameters;
+void ChooseFamiliesOfHalfSteps(bool chosen, ParameterChoice* choice) {
   for (const ParameterFamily family : AllParameterFamilies()) {
-    if (OfHalfSteps(Traits(family))) *choice->flag(family) = false;
+    if (OfHalfSteps(Traits(family))) *choice->flag(family) = chosen;
   }
-  choice->bound("least_duration") = ParameterChoice().bound("least_duration");
-  c->families_chosen = false;
-}
-
-void ChooseFamiliesOfHalfSteps(ParameterChoice* choice) {
-  for (const ParameterFamily family : AllParameterFamilies()) {
-    if (OfHalfSteps(Traits(family))) *choice->flag(family) = true;
-  }
-  choice->bound("least_duration") = 0.2;
+  choice->bound("least_duration") = chosen ? 0.2 : ParameterChoice().bound("least_duration");
 }
 
 }  // namespace
+
+SolverMethodOptions::SolverMethodOptions() {
+  ChooseFamiliesOfHalfSteps(true, &options.program.parameters);
+}
 
 OptionGroup<SolverMethodOptions> OptimizerGroup() {
   return {"optimizer",
@@ -78,14 +72,12 @@ void DeclareFields(Fields& fields, SolverMethodOptions* c) {
   }
   ParameterChoice* const choice = &o->program.parameters;
   const std::vector<std::string> keys = fields.Keys();
-  if (!keys.empty()) ForgetFamiliesOfHalfSteps(c);
   if (NamesFamilyOfHalfSteps(keys)) c->all_families = false;
   fields.Boolean("all_families", &c->all_families,
                  {.meaning = "whichever of the next keys but `footsteps` is not given is "
                              "true, and `least_duration` is 0.2; false by default where one of "
                              "these is given"});
-  if (c->all_families && !c->families_chosen) ChooseFamiliesOfHalfSteps(choice);
-  c->families_chosen = true;
+  if (!keys.empty() && !c->all_families) ChooseFamiliesOfHalfSteps(false, choice);
   for (const ParameterFamily family : AllParameterFamilies()) {
     const ParameterFamilyTraits& traits = Traits(family);
     if (traits.always || traits.key.empty()) continue;
