@@ -7,7 +7,7 @@
 namespace halfstep {
 namespace {
 
-void DeclareWeights(Fields& fields, EffortWeights* w) {
+void DeclareWeights(Fields& fields, RoughnessWeights* w) {
   const auto weight = [&](const char* key, double* value, const char* meaning, const char* unit) {
     fields.Number(key, value, {.meaning = meaning, .unit = unit, .min = 0, .max = 1000});
   };
@@ -63,10 +63,11 @@ OptionGroup<SolverMethodOptions> OptimizerGroup() {
 
 void DeclareFields(Fields& fields, SolverMethodOptions* c) {
   OptimizerOptions* o = &c->options;
-  fields.Text("program", &c->program,
-              {.meaning = "what is optimized: duration; duration and effort; the least slack for a "
-                          "duration; that for a range of durations",
-               .choices = {"fastest", "smooth", "safest", "pareto"}});
+  fields.Text(
+      "program", &c->program,
+      {.meaning = "what is optimized: duration; duration and roughness; the least slack for a "
+                  "duration; that for a range of durations",
+       .choices = {"fastest", "smooth", "safest", "pareto"}});
   for (ProgramKind kind : {ProgramKind::kFastest, ProgramKind::kSmooth, ProgramKind::kSafest}) {
     if (c->program == Name(kind)) o->program.kind = kind;
   }
@@ -104,7 +105,7 @@ void DeclareFields(Fields& fields, SolverMethodOptions* c) {
   fields.Number(
       "pareto_longest", &c->pareto.most_duration,
       {.meaning = "`pareto`: longest duration, of the planned motion's", .min = 0.1, .max = 3});
-  fields.Group("weights", {.meaning = "`smooth`: of the effort beside the duration"},
+  fields.Group("weights", {.meaning = "`smooth`: of the roughness beside the duration"},
                [&](Fields& f) {
                  DeclareWeights(f, &o->program.weights);
                  DeclareOwnCosts(f, &o->program.own_costs);

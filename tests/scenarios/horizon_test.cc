@@ -316,7 +316,7 @@ TEST(Horizon, RefusesAProgramThatBelongsToTheWholeWalk) {
   }
 }
 
-TEST(Horizon, LowersTheEffortToo) {
+TEST(Horizon, LowersTheRoughnessToo) {
   const Experiment e = LoadExperiment("fig3_two_half_steps");
   const CertifiedFeasibility test({e.robot, e.scene, e.config.smoothing.limits}, {});
   HorizonOptions options = Few(true);

@@ -121,7 +121,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, ThreadsTest,
                            return name.substr(name.find('/') + 1);
                          });
 
-// Where a walk is refused the same interval refuses it, and no effort beyond it is counted.
+// Where a walk is refused the same interval refuses it, and no work beyond it is counted.
 TEST(Threads, RefuseWhatOneRefuses) {
   const Experiment e = LoadExperiment("bar_8cm");
   const CertifiedFeasibility test({e.robot, e.scene, e.config.smoothing.limits}, {});
