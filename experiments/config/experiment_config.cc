@@ -282,9 +282,10 @@ HalfStepShape ShapeOf(const HalfStepConfig& config) {
           .support_point = config.support_point};
 }
 
-std::vector<KeyDescription> ConfigKeys(Methods methods) {
+std::vector<KeyDescription> ConfigKeys(Toolbox tools) {
   ExperimentConfig config;
-  config.smoothing.known = std::move(methods);
+  config.smoothing.known = std::move(tools.methods);
+  config.planner.known = std::move(tools.planners);
   std::vector<KeyDescription> keys =
       DescribeKeys([&config](Fields& fields) { DeclareFields(fields, &config); });
   DescribeScaling(&keys);
@@ -292,15 +293,16 @@ std::vector<KeyDescription> ConfigKeys(Methods methods) {
 }
 
 ExperimentConfig LoadConfig(const std::string& path, const std::vector<YamlOverride>& overrides,
-                            Methods methods) {
-  return ParseConfig(path, ReadYamlFile(path), overrides, std::move(methods));
+                            Toolbox tools) {
+  return ParseConfig(path, ReadYamlFile(path), overrides, std::move(tools));
 }
 
 ExperimentConfig ParseConfig(const std::string& path, const std::string& text,
-                             const std::vector<YamlOverride>& overrides, Methods methods) {
+                             const std::vector<YamlOverride>& overrides, Toolbox tools) {
   const std::filesystem::path file(path);
   ExperimentConfig config;
-  config.smoothing.known = std::move(methods);
+  config.smoothing.known = std::move(tools.methods);
+  config.planner.known = std::move(tools.planners);
   config.name = file.stem().string();
   ReadYamlText(text, path, file.parent_path().string(), overrides, [&](Fields& fields) {
     DeclareFields(fields, &config);

@@ -1,20 +1,20 @@
 #include "experiments/config/known_names.h"
 
-#include "planner/search/planner_registry.h"
 #include "smoothing/margins/family_traits.h"
 #include "smoothing/margins/own_margin.h"
 #include "smoothing/program/walk_cost.h"
 
 namespace halfstep {
 
-KnownNames NamesOfConfigs(const Methods& methods) {
-  KnownNames names{.methods = methods.Names(),
+KnownNames NamesOfConfigs(const Toolbox& tools) {
+  KnownNames names{.methods = tools.methods.Names(),
                    .own_options = {},
-                   .planners = PlannerNames(),
+                   .planners = tools.planners.Names(),
                    .weights = {"com_acceleration", "com_jerk", "foot_speed"},
                    .own_margin = std::string(Traits(MarginFamily::kOwn).key),
                    .has_own_margins = !OwnMargins().empty()};
-  for (const DeclaredGroup& group : methods.OwnGroups()) names.own_options.push_back(group.key);
+  for (const DeclaredGroup& group : tools.methods.OwnGroups())
+    names.own_options.push_back(group.key);
   for (const auto& cost : WalkCosts()) names.weights.emplace_back(cost->name());
   return names;
 }

@@ -16,8 +16,8 @@ struct KnownNames {
   std::string own_margin;                ///< key under `smoothing.margins` of the family `own`
   bool has_own_margins = false;          ///< whether a margin is registered, and that key is read
 };
-/// With these methods, and with what is registered now: programs register more while they run.
-KnownNames NamesOfConfigs(const Methods& methods = Methods::Standard());
+/// With these tools, and with what is registered now: programs register more while they run.
+KnownNames NamesOfConfigs(const Toolbox& tools = {});
 
 /// What a config demands of a margin family.
 struct NamedDemand {
