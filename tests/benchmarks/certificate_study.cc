@@ -77,10 +77,10 @@ void Walks(long walks, unsigned seed, const std::string& name, bool all) {
     half_steps += walk.num_half_steps();
     const MarginEvaluator evaluator(robot, drawn->scene, limits);
     const CertifiedFeasibility test(evaluator, {});
-    const TimeWindow window{0.0, walk.duration()};
+    const TimeSpan span{0.0, walk.duration()};
     MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
     const double begin = Now();
-    const Feasibility answer = test.Check(walk, window, &scratch);
+    const Feasibility answer = test.Check(walk, span, &scratch);
     certify_s += Now() - begin;
     scratch = evaluator.MakeScratch();
     const double slack = LeastSlack(evaluator, walk, &scratch);
@@ -97,7 +97,7 @@ void Walks(long walks, unsigned seed, const std::string& name, bool all) {
         ++full;
         const double start = Now();
         const SampledFeasibility dense(evaluator, 5e-5);
-        false_certified += dense.Check(walk, window, &scratch).verdict != Verdict::kFeasible;
+        false_certified += dense.Check(walk, span, &scratch).verdict != Verdict::kFeasible;
         sample_s += Now() - start;
       }
     }

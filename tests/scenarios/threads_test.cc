@@ -135,7 +135,7 @@ TEST(Threads, RefuseWhatOneRefuses) {
     MarginEvaluator::Scratch shared = test.evaluator().MakeScratch();
     shared.workers = &workers;
     for (int repeat = 0; repeat < 3; ++repeat) {
-      const TimeWindow all{0.0, walk.duration()};
+      const TimeSpan all{0.0, walk.duration()};
       const Feasibility a = test.Check(walk, all, &alone), b = test.Check(walk, all, &shared);
       ASSERT_EQ(a.verdict, b.verdict);
       EXPECT_EQ(Content(a.witness), Content(b.witness));

@@ -127,8 +127,8 @@ CertificateRow RowOf(const MarginEvaluator& evaluator, const SuperposedWalk& wal
 }
 
 // A random interval between two knots of a walk.
-TimeWindow DrawInterval(const SuperposedWalk& walk, WalkDraw* draw) {
-  const TimeWindow whole{0.0, walk.duration()};
+TimeSpan DrawInterval(const SuperposedWalk& walk, WalkDraw* draw) {
+  const TimeSpan whole{0.0, walk.duration()};
   std::vector<double> knots = KnotsInside(walk, whole);
   knots.insert(knots.begin(), whole.begin);
   knots.push_back(whole.end);
