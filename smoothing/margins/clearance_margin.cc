@@ -17,8 +17,8 @@ std::string ClearanceMargin::Subject(const Margin& margin) const {
 
 Margin ClearanceMargin::Least(Instant* at, double enough) const {
   if (!at->reachable()) return Of(-std::numeric_limits<double>::infinity(), -1);
-  const double horizon = std::min(enough, ClearanceHorizon(at->limits()));
-  return place_.clearances.NearestObstacle(at->posture(), at->t(), horizon, &at->scratch().bodies);
+  const double cap = std::min(enough, ClearanceCap(at->limits()));
+  return place_.clearances.NearestObstacle(at->posture(), at->t(), cap, &at->scratch().bodies);
 }
 
 std::optional<Margin> ClearanceMargin::FirstBelow(Instant* at, double demanded) const {
@@ -41,7 +41,7 @@ void ClearanceMargin::AddRows(Instant* at, SlackSink* rows) const {
   const Posture& posture = at->posture();
   const BodyClearances& clearances = place_.clearances;
   BodyClearances::Scratch& scratch = at->scratch().bodies;
-  const double far = rows->horizon();
+  const double far = rows->cutoff_margin();
   for (size_t b = 0; b < place_.robot.bodies.size(); ++b) {
     if (clearances.BodyClears(b, posture, at->t(), far, &scratch)) continue;
     const auto nearest = clearances.NearestTo(b, posture, at->t(), far, &scratch);
@@ -69,7 +69,7 @@ FamilyProof ClearanceMargin::Prove(const MarginInterval& interval,
   BodyClearances::Scratch& scratch = interval.mid.scratch().bodies;
   const double demanded = interval.mid.demanded(family());
   const double rounding = interval.mid.rounding();
-  const double horizon = interval.mid.limits().clearance_horizon;
+  const double cap = interval.mid.limits().clearance_cap;
   const double t = interval.mid.t();
   const double half_width = interval.motion.half_width;
   FamilyProof proof;
@@ -78,7 +78,7 @@ FamilyProof ClearanceMargin::Prove(const MarginInterval& interval,
     const double bound = interval.motion.displacement[body] + rounding;  // of the body alone
     if (clearances.BodyClears(body, posture, t, demanded + bound, &scratch, half_width)) {
       if (interval.with_margins) {
-        const double enough = std::max(horizon, demanded + bound + rounding);
+        const double enough = std::max(cap, demanded + bound + rounding);
         const Margin margin = clearances.OfBody(body, posture, t, enough, &scratch, half_width);
         const double of_obstacle =
             margin.other < 0 ? 0.0 : clearances.obstacle_speed(margin.other) * half_width;

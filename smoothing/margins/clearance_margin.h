@@ -8,7 +8,7 @@
 namespace halfstep {
 
 /// Distance from a body of the robot to the obstacles where they are said to be at that time, less
-/// how far from there they may be [m]; at most the clearance horizon; −∞ when a leg does not reach.
+/// how far from there they may be [m]; at most the clearance cap; −∞ when a leg does not reach.
 /// Proved body by body: over an interval each obstacle takes off its own speed times the half
 /// width. Subject: index of RobotModel::bodies. Other: the obstacle.
 class ClearanceMargin final : public MarginStatements {

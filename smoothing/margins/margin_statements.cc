@@ -58,8 +58,8 @@ std::string MarginStatements::BodyName(const RobotModel& robot, int body) {
   return body < 0 ? "robot" : Nth(robot.bodies, body).name;
 }
 
-double MarginStatements::ClearanceHorizon(const MarginLimits& limits) {
-  return std::max({limits.clearance_horizon, 2.0 * limits.demanded_of(MarginFamily::kClearance),
+double MarginStatements::ClearanceCap(const MarginLimits& limits) {
+  return std::max({limits.clearance_cap, 2.0 * limits.demanded_of(MarginFamily::kClearance),
                    2.0 * limits.demanded_of(MarginFamily::kSelfClearance)});
 }
 

@@ -90,9 +90,9 @@ class MarginStatements {
   static std::string JointName(const RobotModel& robot, const Margin& margin);
   /// As FootName, of bodies.
   static std::string BodyName(const RobotModel& robot, int body);
-  /// Distances are told apart up to this [m]: MarginLimits::clearance_horizon, or twice the largest
+  /// Distances are told apart up to this [m]: MarginLimits::clearance_cap, or twice the largest
   /// demanded clearance where that is more.
-  static double ClearanceHorizon(const MarginLimits& limits);
+  static double ClearanceCap(const MarginLimits& limits);
 
  private:
   const FamilyTraits& traits_;

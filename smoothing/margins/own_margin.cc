@@ -57,7 +57,7 @@ Margin OwnMargin::Least(Instant* at, double) const {
 void OwnMargin::AddRows(Instant* at, SlackSink* rows) const {
   for (const auto& own : OwnMargins()) {
     const double value = own->Value(at) / own->scale();
-    if (!(value <= rows->horizon()) || !std::isfinite(value)) continue;
+    if (!(value <= rows->cutoff_margin()) || !std::isfinite(value)) continue;
     const std::vector<double> slopes = own->Slopes(at, rows->sensitivities);
     rows->Add(value, [&](size_t i) { return slopes[i] / own->scale(); });
   }

@@ -16,8 +16,8 @@ std::string SelfClearanceMargin::Subject(const Margin& margin) const {
 
 Margin SelfClearanceMargin::Least(Instant* at, double enough) const {
   if (!at->reachable()) return Of(-std::numeric_limits<double>::infinity(), -1);
-  const double horizon = std::min(enough, ClearanceHorizon(at->limits()));
-  return place_.clearances.NearestPair(at->posture(), horizon, &at->scratch().bodies);
+  const double cap = std::min(enough, ClearanceCap(at->limits()));
+  return place_.clearances.NearestPair(at->posture(), cap, &at->scratch().bodies);
 }
 
 std::optional<Margin> SelfClearanceMargin::FirstBelow(Instant* at, double demanded) const {
@@ -43,7 +43,7 @@ void SelfClearanceMargin::AddRows(Instant* at, SlackSink* rows) const {
   BodyClearances::Scratch& scratch = at->scratch().bodies;
   clearances.Place(posture, &scratch);
   for (size_t p = 0; p < clearances.num_pairs(); ++p) {
-    if (clearances.PairClears(p, posture, rows->horizon(), &scratch)) continue;
+    if (clearances.PairClears(p, posture, rows->cutoff_margin(), &scratch)) continue;
     const Separation gap = clearances.SeparationOf(p, posture, &scratch);
     const auto [a, b] = place_.robot.self_pairs[p];
     const RobotBody& first = Nth(place_.robot.bodies, a);
@@ -68,7 +68,7 @@ FamilyProof SelfClearanceMargin::Prove(const MarginInterval& interval,
   BodyClearances::Scratch& scratch = interval.mid.scratch().bodies;
   const double demanded = interval.mid.demanded(family());
   const double rounding = interval.mid.rounding();
-  const double horizon = interval.mid.limits().clearance_horizon;
+  const double cap = interval.mid.limits().clearance_cap;
   FamilyProof proof;
   clearances.Place(motion.posture, &scratch);
   std::erase_if(*open, [&](uint16_t pair) {
@@ -80,7 +80,7 @@ FamilyProof SelfClearanceMargin::Prove(const MarginInterval& interval,
                          rounding;
     if (clearances.PairClears(pair, motion.posture, demanded + bound, &scratch)) {
       if (interval.with_margins) {
-        const double enough = std::max(horizon, demanded + bound + rounding);
+        const double enough = std::max(cap, demanded + bound + rounding);
         proof.held.Add(clearances.OfPair(pair, motion.posture, enough, &scratch), bound);
       }
       return true;

@@ -7,7 +7,7 @@
 
 namespace halfstep {
 
-/// Distance between two of the robot's own bodies [m], at most the clearance horizon; −∞ when a leg
+/// Distance between two of the robot's own bodies [m], at most the clearance cap; −∞ when a leg
 /// does not reach. Proved pair by pair. Subject and other: indices of RobotModel::bodies.
 class SelfClearanceMargin final : public MarginStatements {
  public:

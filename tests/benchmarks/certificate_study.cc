@@ -60,7 +60,7 @@ void Walks(long walks, unsigned seed, const std::string& name, bool all) {
   const RobotModel robot = RobotNamed(name);
   MarginLimits limits;
   limits.demanded_of(MarginFamily::kFloor) *= std::min(1.0, LegScale(robot));
-  limits.clearance_horizon = 0.05;  // farther ones do not matter here
+  limits.clearance_cap = 0.05;  // farther ones do not matter here
   WalkDraw draw(seed);
   long false_certified = 0, full = 0, plans = 0, bad_rows = 0, undecided_after_all = 0;
   double certify_s = 0, sample_s = 0;
