@@ -35,7 +35,7 @@ json HalfStepJson(const PlacedHalfStep& placed) {
 
 // What half_steps.csv has of the families: where a walk's values stand among its parameters, a
 // number for each step or half-step, and the column, which names the number of half-steps, too.
-json FamiliesJson() {
+json FamilyColumnsJson() {
   json families = json::array();
   for (const ParameterFamily family : FamiliesOfHalfSteps(HalfStepsExtent::kFootsteps)) {
     const ParameterFamilyTraits& traits = Traits(family);
@@ -52,7 +52,7 @@ json ClosedFormJson(const RobotModel& robot, const HalfStepSequence& sequence) {
   for (const PlacedHalfStep& placed : sequence.half_steps) {
     half_steps.push_back(HalfStepJson(placed));
   }
-  return {{"half_steps", std::move(half_steps)},      {"families", FamiliesJson()},
+  return {{"half_steps", std::move(half_steps)},      {"families", FamilyColumnsJson()},
           {"com_height_m", sequence.lipm.com_height}, {"gravity_m_s2", sequence.lipm.gravity},
           {"waist_height_m", robot.waist_height},     {"com_ahead_m", robot.com_x_B}};
 }

@@ -121,7 +121,7 @@ TEST(OwnOptions, AreUnknownToAProgramWithoutTheMethod) {
   const char* const refusal = "smoothing.own: there is none: this program added no methods";
   EXPECT_THAT(ComplaintOf({{"smoothing.own.mine/part.part", "0.1"}}, none), HasSubstr(refusal));
   EXPECT_THAT(ComplaintOf({{"smoothing.own", "{}"}}, none), HasSubstr(refusal));
-  EXPECT_THAT(Written(LoadConfig(kConfig, {}, none)), Not(HasSubstr("\n  own:")));
+  EXPECT_THAT(Written(LoadConfig(kConfig, {}, {none})), Not(HasSubstr("\n  own:")));
   const auto has_own = [](const std::vector<KeyDescription>& keys) {
     for (const KeyDescription& key : keys) {
       if (key.path != "smoothing") continue;
