@@ -31,7 +31,7 @@ Scene Hall(int count, double half, bool moving, SweptDraw* draw) {
     if (moving && i % 14 == 0) {
       o.motion.speed = 0.1;
       o.motion.measured_at = draw->Uniform(-1, 3);
-      o.motion.cap = 2;
+      o.motion.horizon = 2;
     }
     if (moving && i % 11 == 0) {
       o.motion.waypoints = {{2.0, draw->Point({-half, -half, 0}, {half, half, 0.4}), 1.0}};
