@@ -30,9 +30,9 @@ double Longer(const PlanChange& planned, double by) {
   return Rounded(by * *planned.duration, 0.01);
 }
 
-class Search {
+class RemedySearch {
  public:
-  Search(const ChangeablePlan& plan, const FeasibilityTest& test, const std::stop_token& stop)
+  RemedySearch(const ChangeablePlan& plan, const FeasibilityTest& test, const std::stop_token& stop)
       : plan_(plan), test_(test), scratch_(test.evaluator().MakeScratch()) {
     scratch_.stop = stop;
   }
@@ -152,7 +152,7 @@ std::vector<int> FootstepsThatMiss(const MissedDemands& missed) {
 PlanRemedies FindRemedies(const ChangeablePlan& plan, const FeasibilityTest& test,
                           const MissedDemands& missed, const std::stop_token& stop) {
   if (!test.evaluator().scene().rests()) return {};
-  return Search(plan, test, stop).Run(FootstepsThatMiss(missed));
+  return RemedySearch(plan, test, stop).Run(FootstepsThatMiss(missed));
 }
 
 }  // namespace halfstep
