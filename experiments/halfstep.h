@@ -9,7 +9,7 @@
 #include "experiments/run/smoothing_of.h"
 #include "opt/adapters/function_solver.h"
 #include "opt/adapters/solver_registry.h"
-#include "planner/search/planner_registry.h"
+#include "planner/search/planners.h"
 #include "smoothing/margins/own_margin.h"
 #include "smoothing/methods/dichotomy.h"
 #include "smoothing/methods/methods.h"
@@ -18,3 +18,4 @@
 #include "smoothing/proof/certified_feasibility.h"
 #include "smoothing/proof/sampled_feasibility.h"
 #include "wpg/files/input_error.h"
+#include "wpg/motion/lipm.h"

@@ -79,7 +79,7 @@ ExitStatus Certify(const CertifyCommand& command) {
         {command.run + ": no such run folder (valid: a folder that `halfstep run` wrote)"});
   }
   ExperimentConfig config =
-      LoadConfig((run / "config.yaml").string(), command.overrides, command.methods);
+      LoadConfig((run / "config.yaml").string(), command.overrides, command.tools);
   const Experiment experiment = Prepare(config);
   const MarginEvaluator evaluator(experiment.robot, experiment.scene, config.smoothing.limits);
   const CertifiedFeasibility test(evaluator, config.smoothing.certification);
@@ -119,7 +119,7 @@ ExitStatus Certify(const CertifyCommand& command) {
     std::cerr << "halfstep: interrupted; the run is as it was\n";
     return kInterrupted;
   }
-  WriteReport(experiment.robot, experiment.scene, &folder, command.methods);
+  WriteReport(experiment.robot, experiment.scene, &folder, command.tools);
   CompleteManifest(experiment.robot, experiment.scene, &folder);
   folder.Publish();
   if (!command.quiet) {
@@ -132,9 +132,9 @@ ExitStatus Certify(const CertifyCommand& command) {
   return all_certified ? kSuccess : kFailed;
 }
 
-CommandAction DeclareCertify(CLI::App* app, const Methods& methods) {
+CommandAction DeclareCertify(CLI::App* app, const Toolbox& tools) {
   const auto command = std::make_shared<CertifyCommand>();
-  command->methods = methods;
+  command->tools = tools;
   const auto sets = std::make_shared<std::vector<std::string>>();
   app->add_option("RUN", command->run, "run folder")->required();
   DeclareOverrides(app, "the run's config", sets.get());

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "experiments/config/toolbox.h"
 #include "planner/scene/scene.h"
-#include "smoothing/methods/methods.h"
 #include "wpg/files/yaml_fields.h"
 
 namespace halfstep {
@@ -18,11 +18,11 @@ namespace halfstep {
 using CommandAction = std::function<int()>;
 
 /// A command of `halfstep`: its name, its help, and the function that declares its options, for
-/// configs that may name `methods`.
+/// configs that may name what `tools` hold.
 struct CommandEntry {
   const char* name;
   const char* help;
-  CommandAction (*declare)(CLI::App* app, const Methods& methods);
+  CommandAction (*declare)(CLI::App* app, const Toolbox& tools);
 };
 
 /// Every command. To add one, write its file with a Declare function and add a row in the source.
@@ -51,23 +51,23 @@ void TellWarnings(const RobotModel& robot, const Scene& scene = {});
 /// Lines under a heading, on standard error.
 void TellUnder(const std::string& heading, const std::vector<std::string>& lines);
 
-CommandAction DeclareInit(CLI::App* app, const Methods& methods);
-CommandAction DeclareRun(CLI::App* app, const Methods& methods);
-CommandAction DeclareSmooth(CLI::App* app, const Methods& methods);
-CommandAction DeclareCompare(CLI::App* app, const Methods& methods);
-CommandAction DeclarePlan(CLI::App* app, const Methods& methods);
-CommandAction DeclareBake(CLI::App* app, const Methods& methods);
-CommandAction DeclareDraw(CLI::App* app, const Methods& methods);
-CommandAction DeclareCertify(CLI::App* app, const Methods& methods);
-CommandAction DeclareVerify(CLI::App* app, const Methods& methods);
-CommandAction DeclareSweep(CLI::App* app, const Methods& methods);
-CommandAction DeclareExplain(CLI::App* app, const Methods& methods);
-CommandAction DeclareReport(CLI::App* app, const Methods& methods);
-CommandAction DeclareExport(CLI::App* app, const Methods& methods);
-CommandAction DeclareReplay(CLI::App* app, const Methods& methods);
-CommandAction DeclareList(CLI::App* app, const Methods& methods);
-CommandAction DeclareLive(CLI::App* app, const Methods& methods);
-CommandAction DeclareRecover(CLI::App* app, const Methods& methods);
-CommandAction DeclareRobot(CLI::App* app, const Methods& methods);
+CommandAction DeclareInit(CLI::App* app, const Toolbox& tools);
+CommandAction DeclareRun(CLI::App* app, const Toolbox& tools);
+CommandAction DeclareSmooth(CLI::App* app, const Toolbox& tools);
+CommandAction DeclareCompare(CLI::App* app, const Toolbox& tools);
+CommandAction DeclarePlan(CLI::App* app, const Toolbox& tools);
+CommandAction DeclareBake(CLI::App* app, const Toolbox& tools);
+CommandAction DeclareDraw(CLI::App* app, const Toolbox& tools);
+CommandAction DeclareCertify(CLI::App* app, const Toolbox& tools);
+CommandAction DeclareVerify(CLI::App* app, const Toolbox& tools);
+CommandAction DeclareSweep(CLI::App* app, const Toolbox& tools);
+CommandAction DeclareExplain(CLI::App* app, const Toolbox& tools);
+CommandAction DeclareReport(CLI::App* app, const Toolbox& tools);
+CommandAction DeclareExport(CLI::App* app, const Toolbox& tools);
+CommandAction DeclareReplay(CLI::App* app, const Toolbox& tools);
+CommandAction DeclareList(CLI::App* app, const Toolbox& tools);
+CommandAction DeclareLive(CLI::App* app, const Toolbox& tools);
+CommandAction DeclareRecover(CLI::App* app, const Toolbox& tools);
+CommandAction DeclareRobot(CLI::App* app, const Toolbox& tools);
 
 }  // namespace halfstep

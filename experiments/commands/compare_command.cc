@@ -48,7 +48,7 @@ ExitStatus CompareRuns(const CompareCommand& command) {
     WriteCsv("anytime", AnytimeCsv(comparison), &folder);
     WriteCsv("means", MeansCsv(comparison), &folder);
     folder.Write("manifest.json", ComparisonManifest(runs));
-    if (HasReport()) folder.Write("report.html", ComparisonReport(comparison, command.methods));
+    if (HasReport()) folder.Write("report.html", ComparisonReport(comparison, command.tools));
     folder.Publish();
   }
   if (!command.quiet) {
@@ -58,9 +58,9 @@ ExitStatus CompareRuns(const CompareCommand& command) {
   return kSuccess;
 }
 
-CommandAction DeclareCompare(CLI::App* app, const Methods& methods) {
+CommandAction DeclareCompare(CLI::App* app, const Toolbox& tools) {
   const auto command = std::make_shared<CompareCommand>();
-  command->methods = methods;
+  command->tools = tools;
   app->add_option("RUN", command->runs, "run folder, or LABEL=RUN")->required();
   app->add_option("--out", command->out, "folder for the tables as CSV");
   app->add_flag("--overwrite", command->overwrite, "replace an older comparison");

@@ -77,7 +77,7 @@ ExitStatus DrawWalks(const DrawCommand& command) {
 
 }  // namespace
 
-CommandAction DeclareDraw(CLI::App* app, const Methods&) {
+CommandAction DeclareDraw(CLI::App* app, const Toolbox&) {
   const auto command = std::make_shared<DrawCommand>();
   std::vector<std::string> kinds = RandomSceneNames();
   kinds.push_back("walks");

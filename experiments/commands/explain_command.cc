@@ -72,9 +72,9 @@ void FindByMeaning(const std::vector<KeyDescription>& keys, const std::string& l
 }  // namespace
 
 ExitStatus ExplainConfig(const ExplainCommand& command) {
-  std::vector<KeyDescription> keys = ConfigKeys(command.methods);
+  std::vector<KeyDescription> keys = ConfigKeys(command.tools);
   // The keys of an episode are searched by name only: a run has no `live`.
-  if (!command.key.empty()) keys = EpisodeKeys(command.methods);
+  if (!command.key.empty()) keys = EpisodeKeys(command.tools);
   if (!command.robot.empty()) {
     ExperimentConfig config;
     config.robot = command.robot;
@@ -99,9 +99,9 @@ ExitStatus ExplainConfig(const ExplainCommand& command) {
   return kSuccess;
 }
 
-CommandAction DeclareExplain(CLI::App* app, const Methods& methods) {
+CommandAction DeclareExplain(CLI::App* app, const Toolbox& tools) {
   const auto command = std::make_shared<ExplainCommand>();
-  command->methods = methods;
+  command->tools = tools;
   app->add_option("KEY", command->key,
                   "a key, its last part, or a word of what it means (default: all)");
   app->add_option("--robot", command->robot,

@@ -80,7 +80,7 @@ class WalkExport {
   WalkExport(const ExportCommand& command, RunFolder* folder)
       : command_(command),
         run_(command.runs.front()),
-        config_(LoadConfig((run_ / "config.yaml").string(), {}, command.methods)),
+        config_(LoadConfig((run_ / "config.yaml").string(), {}, command.tools)),
         whole_(LoadWholeRobot(RobotPath(config_).string())),
         joints_(OrderedJoints(whole_.tree, command.joints)),
         folder_(*folder) {
@@ -194,9 +194,9 @@ ExitStatus Export(const ExportCommand& command) {
   return kSuccess;
 }
 
-CommandAction DeclareExport(CLI::App* app, const Methods& methods) {
+CommandAction DeclareExport(CLI::App* app, const Toolbox& tools) {
   const auto command = std::make_shared<ExportCommand>();
-  command->methods = methods;
+  command->tools = tools;
   app->add_option("RUN", command->runs, "run folder; several for ompl")->required();
   app->add_option("--format", command->format,
                   "csv: columns of trajectory.csv; npz: the same as NumPy arrays; hrpsys: files of "

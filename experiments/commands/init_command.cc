@@ -57,7 +57,7 @@ ExitStatus Init(InitCommand command) {
 
 }  // namespace
 
-CommandAction DeclareInit(CLI::App* app, const Methods&) {
+CommandAction DeclareInit(CLI::App* app, const Toolbox&) {
   const auto command = std::make_shared<InitCommand>();
   app->add_option("NAME", command->name, "of the config; NAME.yaml is written")->required();
   app->add_option("--robot", command->config.robot_file, "name or file of a robot (default: hrp2)");

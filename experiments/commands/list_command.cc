@@ -8,8 +8,8 @@
 #include "experiments/commands/command_mistake.h"
 #include "experiments/commands/commands.h"
 #include "experiments/config/data_folder.h"
+#include "experiments/config/toolbox.h"
 #include "opt/adapters/solver_registry.h"
-#include "smoothing/methods/methods.h"
 #include "wpg/files/input_error.h"
 
 namespace halfstep {
@@ -29,32 +29,31 @@ std::vector<Entry> FilesOf(const std::filesystem::path& folder) {
   return entries;
 }
 
-std::vector<Entry> Solvers(const Methods& methods) {
+std::vector<Entry> Solvers(const Toolbox& tools) {
   std::vector<Entry> entries;
   for (const std::string& name : opt::SolverNames()) {
     const std::unique_ptr<opt::Solver> solver = opt::MakeSolver(name);
     entries.push_back(
         {name, solver->available() ? "available" : solver->WhyUnavailable(), solver->available()});
   }
-  for (const auto& own : methods.own_solvers()) entries.push_back({own->name(), "available", true});
+  for (const auto& own : tools.methods.own_solvers())
+    entries.push_back({own->name(), "available", true});
   return entries;
 }
 
-std::vector<Entry> Planners() {
-  return {{"rrt", "random tree over all half-steps, then short-cuts"},
-          {"astar", "weighted A* over all half-steps, anytime"},
-          {"astar/classic", "the same over 14 classic ones"},
-          {"bounding_box", "a box around the robot finds the way: a baseline"}};
-}
-
-std::vector<Entry> Entries(const std::string& what, const Methods& methods) {
+std::vector<Entry> Entries(const std::string& what, const Toolbox& tools) {
   if (what == "robots") return FilesOf(RobotsFolder());
   if (what == "scenes") return FilesOf(ScenesFolder());
   if (what == "configs") return FilesOf(DataFolder() / "configs");
-  if (what == "solvers") return Solvers(methods);
-  if (what == "planners") return Planners();
+  if (what == "solvers") return Solvers(tools);
   std::vector<Entry> entries;
-  for (const auto& smoother : methods.all()) {
+  if (what == "planners") {
+    for (const NamedPlanner& planner : tools.planners.all()) {
+      entries.push_back({planner.name, planner.meaning});
+    }
+    return entries;
+  }
+  for (const auto& smoother : tools.methods.all()) {
     entries.push_back({smoother->name(), smoother->meaning()});
   }
   return entries;
@@ -62,8 +61,8 @@ std::vector<Entry> Entries(const std::string& what, const Methods& methods) {
 
 }  // namespace
 
-ExitStatus List(const std::string& what, bool json, const Methods& methods) {
-  const std::vector<Entry> entries = Entries(what, methods);
+ExitStatus List(const std::string& what, bool json, const Toolbox& tools) {
+  const std::vector<Entry> entries = Entries(what, tools);
   if (json) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (const Entry& entry : entries) {
@@ -82,7 +81,7 @@ ExitStatus List(const std::string& what, bool json, const Methods& methods) {
   return kSuccess;
 }
 
-CommandAction DeclareList(CLI::App* app, const Methods& methods) {
+CommandAction DeclareList(CLI::App* app, const Toolbox& tools) {
   struct Options {
     std::string what, config;
     bool json = false;
@@ -95,13 +94,13 @@ CommandAction DeclareList(CLI::App* app, const Methods& methods) {
           OneOf({"robots", "scenes", "configs", "solvers", "methods", "planners", "half-steps"}));
   app->add_option("CONFIG", options->config, "whose half-steps (half-steps only)");
   app->add_flag("--json", options->json, "print JSON");
-  return [options, methods] {
-    if (options->what != "half-steps") return List(options->what, options->json, methods);
+  return [options, tools] {
+    if (options->what != "half-steps") return List(options->what, options->json, tools);
     if (options->config.empty()) {
       throw InputError({"list half-steps: of which config? (valid: a YAML file)"});
     }
     return ListHalfSteps(
-        {.config = options->config, .overrides = {}, .json = options->json, .methods = methods});
+        {.config = options->config, .overrides = {}, .json = options->json, .tools = tools});
   };
 }
 

@@ -147,7 +147,7 @@ ExitStatus Live(const LiveCommand& command) {
   InterruptGuard interrupt;
   LoadedEpisode loaded = LoadEpisode(
       command.run.config, command.run.overrides,
-      [&](const LiveConfig& config) { return Adapted(command, config); }, command.run.methods);
+      [&](const LiveConfig& config) { return Adapted(command, config); }, command.run.tools);
   LiveConfig& config = loaded.config;
   const Place& place = loaded.place;
   TellWarnings(place.robot, place.scene);
@@ -204,9 +204,9 @@ ExitStatus Live(const LiveCommand& command) {
   return WentWell(episode, outcome) ? kSuccess : kFailed;
 }
 
-CommandAction DeclareLive(CLI::App* app, const Methods& methods) {
+CommandAction DeclareLive(CLI::App* app, const Toolbox& tools) {
   const auto command = std::make_shared<LiveCommand>();
-  command->run.methods = methods;
+  command->run.tools = tools;
   const auto sets = std::make_shared<std::vector<std::string>>();
   app->add_option("CONFIG", command->run.config, "episode, a YAML file with `live`")->required();
   DeclareOverrides(app, "the config", sets.get());

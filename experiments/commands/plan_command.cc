@@ -80,7 +80,7 @@ std::uintmax_t SizeOf(const std::string& path) {
 
 ExitStatus Plan(const PlanCommand& command) {
   InterruptGuard interrupt;
-  const ExperimentConfig config = LoadConfig(command.config, command.overrides, command.methods);
+  const ExperimentConfig config = LoadConfig(command.config, command.overrides, command.tools);
   if (!config.has_goal) {
     throw InputError(
         {command.config + ": goal: is missing (valid: a `goal` in place of footsteps)"});
@@ -106,7 +106,7 @@ ExitStatus Plan(const PlanCommand& command) {
 
 ExitStatus Bake(const PlanCommand& command) {
   InterruptGuard interrupt;
-  const ExperimentConfig config = LoadConfig(command.config, command.overrides, command.methods);
+  const ExperimentConfig config = LoadConfig(command.config, command.overrides, command.tools);
   const Place place = LoadPlace(config);
   TellWarnings(place.robot, place.scene);
   std::optional<BakedHalfSteps> baked;
@@ -139,7 +139,7 @@ ExitStatus Bake(const PlanCommand& command) {
 }
 
 ExitStatus ListHalfSteps(const PlanCommand& command) {
-  const ExperimentConfig config = LoadConfig(command.config, command.overrides, command.methods);
+  const ExperimentConfig config = LoadConfig(command.config, command.overrides, command.tools);
   const StepSet set = CertifiedHalfSteps(LoadPlace(config).robot, config);
   if (command.json) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
@@ -160,10 +160,10 @@ ExitStatus ListHalfSteps(const PlanCommand& command) {
 
 namespace {
 
-CommandAction DeclarePlanning(CLI::App* app, const Methods& methods,
+CommandAction DeclarePlanning(CLI::App* app, const Toolbox& tools,
                               ExitStatus (*run)(const PlanCommand&)) {
   const auto command = std::make_shared<PlanCommand>();
-  command->methods = methods;
+  command->tools = tools;
   const auto sets = std::make_shared<std::vector<std::string>>();
   app->add_option("CONFIG", command->config, "experiment, a YAML file")->required();
   DeclareOverrides(app, "the config", sets.get());
@@ -177,11 +177,11 @@ CommandAction DeclarePlanning(CLI::App* app, const Methods& methods,
 
 }  // namespace
 
-CommandAction DeclarePlan(CLI::App* app, const Methods& methods) {
-  return DeclarePlanning(app, methods, Plan);
+CommandAction DeclarePlan(CLI::App* app, const Toolbox& tools) {
+  return DeclarePlanning(app, tools, Plan);
 }
-CommandAction DeclareBake(CLI::App* app, const Methods& methods) {
-  return DeclarePlanning(app, methods, Bake);
+CommandAction DeclareBake(CLI::App* app, const Toolbox& tools) {
+  return DeclarePlanning(app, tools, Bake);
 }
 
 }  // namespace halfstep

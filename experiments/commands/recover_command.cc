@@ -20,7 +20,7 @@ ExitStatus Recover(const RecoverCommand& command) {
                       ": no such folder (valid: the name of an episode whose process was killed)"});
   }
   const EpisodeJournalLock lock(left);
-  const LiveConfig config = LoadLiveConfig((left / "config.yaml").string(), {}, command.methods);
+  const LiveConfig config = LoadLiveConfig((left / "config.yaml").string(), {}, command.tools);
   const Place place = LoadEpisodePlace(config);
   const Episode episode = ReadJournal(left, config, place);
   RunFolder folder(command.episode, command.overwrite);
@@ -37,9 +37,9 @@ ExitStatus Recover(const RecoverCommand& command) {
   return kSuccess;
 }
 
-CommandAction DeclareRecover(CLI::App* app, const Methods& methods) {
+CommandAction DeclareRecover(CLI::App* app, const Toolbox& tools) {
   const auto command = std::make_shared<RecoverCommand>();
-  command->methods = methods;
+  command->tools = tools;
   app->add_option("EPISODE", command->episode, "the folder that the episode would have written")
       ->required();
   app->add_flag("--overwrite", command->overwrite, "replace an older episode of that name");

@@ -54,7 +54,7 @@ struct Task {
 Task RunTask(const ReplayCommand& command) {
   const std::vector<std::string> methods = MethodsOfRun(command.run, command.method);
   const ExperimentConfig config =
-      LoadConfig((fs::path(command.run) / "config.yaml").string(), {}, command.methods);
+      LoadConfig((fs::path(command.run) / "config.yaml").string(), {}, command.tools);
   Task task{.robot = LoadWholeRobot(RobotPath(config).string()), .world = {}, .motions = {}};
   if (const auto scene = ScenePath(config)) {
     task.world = replay::ObstaclesOf(LoadScene(scene->string()));
@@ -71,7 +71,7 @@ Task EpisodeTask(const ReplayCommand& command) {
   if (command.method) {
     throw InputError({"--method: " + command.run + " is an episode, which has one walk"});
   }
-  replay::RecordedEpisode episode = replay::ReadEpisode(command.run, command.methods);
+  replay::RecordedEpisode episode = replay::ReadEpisode(command.run, command.tools);
   Task task{.robot = std::move(episode.robot),
             .world = replay::ObstaclesOf(episode.truth),
             .motions = {}};
@@ -152,9 +152,9 @@ ExitStatus Replay(const ReplayCommand& command) {
   return stayed_up ? kSuccess : kFailed;
 }
 
-CommandAction DeclareReplay(CLI::App* app, const Methods& methods) {
+CommandAction DeclareReplay(CLI::App* app, const Toolbox& tools) {
   const auto command = std::make_shared<ReplayCommand>();
-  command->methods = methods;
+  command->tools = tools;
   const auto engine = std::make_shared<std::string>("mujoco");
   app->add_option("RUN", command->run, "folder of a run or of an episode")->required();
   app->add_option("--engine", *engine, "mujoco")->check(OneOf({"mujoco"}));

@@ -40,12 +40,12 @@ void WriteInto(const fs::path& folder_path, const Place& place, const Write& wri
 }
 
 void ReportOfRun(const ReportCommand& command, const fs::path& run) {
-  const Place place = PlaceOfRun(run, command.methods);
+  const Place place = PlaceOfRun(run, command.tools);
   if (command.out) {
-    WriteWhole(*command.out, {RunReport(place.robot, place.scene, run, command.methods)});
+    WriteWhole(*command.out, {RunReport(place.robot, place.scene, run, command.tools)});
   } else {
     WriteInto(run, place,
-              [&](RunFolder* f) { WriteReport(place.robot, place.scene, f, command.methods); });
+              [&](RunFolder* f) { WriteReport(place.robot, place.scene, f, command.tools); });
   }
 }
 
@@ -61,7 +61,7 @@ void CheckSame(const std::vector<InputFile>& files, const std::string& what,
 }
 
 void ReportOfEpisode(const ReportCommand& command, const fs::path& folder) {
-  const LiveConfig config = LoadLiveConfig((folder / "config.yaml").string(), {}, command.methods);
+  const LiveConfig config = LoadLiveConfig((folder / "config.yaml").string(), {}, command.tools);
   const Place place = LoadEpisodePlace(config);
   CheckSame(place.robot.files, "robot", folder);
   CheckSame(place.scene.files, "scene", folder);
@@ -82,9 +82,9 @@ void TellFrames(int done, int frames) {
 ExitStatus Video(const ReportCommand& command, const fs::path& run, const fs::path& out) {
   InterruptGuard interrupt;
   interrupt.Keep();  // a folder is to be removed
-  const Place place = PlaceOfRun(run, command.methods);
+  const Place place = PlaceOfRun(run, command.tools);
   const std::optional<std::string> video =
-      WalkVideo(RunReport(place.robot, place.scene, run, command.methods), command.options,
+      WalkVideo(RunReport(place.robot, place.scene, run, command.tools), command.options,
                 command.quiet ? VideoProgress() : TellFrames, interrupt.token());
   if (!video) {
     std::cerr << "halfstep: stopped; nothing is written\n";
@@ -148,9 +148,9 @@ ExitStatus Report(const ReportCommand& command) {
   return kSuccess;
 }
 
-CommandAction DeclareReport(CLI::App* app, const Methods& methods) {
+CommandAction DeclareReport(CLI::App* app, const Toolbox& tools) {
   const auto command = std::make_shared<ReportCommand>();
-  command->methods = methods;
+  command->tools = tools;
   app->add_option("RUN", command->run, "folder of a run, an episode or a sweep")->required();
   app->add_option("--out", command->out, "the file (default: report.html in that folder)");
   app->add_option("--video", command->video,

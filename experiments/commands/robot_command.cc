@@ -114,7 +114,7 @@ ExitStatus SurveyRobotFile(const RobotCommand& command) {
   return Walk(files, command.quiet) ? kSuccess : kFailed;
 }
 
-CommandAction DeclareRobot(CLI::App* app, const Methods&) {
+CommandAction DeclareRobot(CLI::App* app, const Toolbox&) {
   const auto command = std::make_shared<RobotCommand>();
   struct Texts {
     std::string urdf;

@@ -88,7 +88,7 @@ ExitStatus Run(const RunCommand& command) {
       .stop = interrupt.token(),
       .stop_step = interrupt.step_token(),
       .keep = [&interrupt] { interrupt.Keep(); }};
-  const ExperimentConfig config = LoadConfig(command.config, command.overrides, command.methods);
+  const ExperimentConfig config = LoadConfig(command.config, command.overrides, command.tools);
   ExperimentRun run(config, hooks);
   if (run.refusal()) {
     bars.End();
@@ -106,7 +106,7 @@ ExitStatus Run(const RunCommand& command) {
   // What smoothing had found when it was stopped is proved all the same.
   run.Certify(interrupt.requested() ? interrupt.proof_token() : interrupt.token());
   run.Write(&folder);
-  WriteReport(run.experiment().robot, run.experiment().scene, &folder, command.methods);
+  WriteReport(run.experiment().robot, run.experiment().scene, &folder, command.tools);
   CompleteManifest(run.experiment().robot, run.experiment().scene, &folder);
   folder.Publish();
 
@@ -124,9 +124,9 @@ ExitStatus Run(const RunCommand& command) {
   return TellWhatDidNotWork(run, wants_plan) ? kFailed : kSuccess;
 }
 
-CommandAction DeclareRun(CLI::App* app, const Methods& methods) {
+CommandAction DeclareRun(CLI::App* app, const Toolbox& tools) {
   const auto command = std::make_shared<RunCommand>();
-  command->methods = methods;
+  command->tools = tools;
   const auto sets = std::make_shared<std::vector<std::string>>();
   app->add_option("CONFIG", command->config, "experiment, a YAML file")->required();
   DeclareOverrides(app, "the config", sets.get());

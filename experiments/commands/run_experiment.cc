@@ -39,7 +39,7 @@ int RunAction(const CommandAction& action) {
 
 }  // namespace
 
-int RunExperiment(int argc, char** argv, const Methods& methods) {
+int RunExperiment(int argc, char** argv, const Toolbox& tools) {
   RemoveLeftoversAtSignals();
   const PrintableStream out(&std::cout), err(&std::cerr);
   CLI::App app{
@@ -51,7 +51,7 @@ int RunExperiment(int argc, char** argv, const Methods& methods) {
   std::string names;
   for (const CommandEntry& entry : CommandEntries()) {
     CLI::App* const command = app.add_subcommand(entry.name, entry.help);
-    commands.emplace_back(command, entry.declare(command, methods));
+    commands.emplace_back(command, entry.declare(command, tools));
     RefuseDecimalCommas(command);
     names += (names.empty() ? "" : ", ") + std::string(entry.name);
   }

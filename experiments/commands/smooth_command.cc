@@ -7,7 +7,6 @@
 #include "experiments/commands/commands.h"
 #include "experiments/config/experiment_config.h"
 #include "experiments/tables/given_walk_file.h"
-#include "smoothing/methods/methods.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/suggestion.h"
 #include "wpg/files/text.h"
@@ -67,8 +66,8 @@ ExitStatus Smooth(const SmoothCommand& command) {
       methods.insert(methods.begin(), "given");
   }
   if (!methods.empty())
-    run.overrides.push_back({"smoothing.methods", MethodList(methods, run.methods.Names())});
-  if (LoadConfig(run.config, run.overrides, run.methods).has_goal) {
+    run.overrides.push_back({"smoothing.methods", MethodList(methods, run.tools.methods.Names())});
+  if (LoadConfig(run.config, run.overrides, run.tools).has_goal) {
     throw InputError({run.config +
                       ": goal: there are no footsteps to smooth (valid: a config with "
                       "`footsteps`, or the folder of a run; `halfstep run` plans first)"});
@@ -76,9 +75,9 @@ ExitStatus Smooth(const SmoothCommand& command) {
   return Run(run);
 }
 
-CommandAction DeclareSmooth(CLI::App* app, const Methods& methods) {
+CommandAction DeclareSmooth(CLI::App* app, const Toolbox& tools) {
   const auto command = std::make_shared<SmoothCommand>();
-  command->run.methods = methods;
+  command->run.tools = tools;
   const auto sets = std::make_shared<std::vector<std::string>>();
   app->add_option("CONFIG", command->run.config, "config with footsteps, or a run folder")
       ->required();

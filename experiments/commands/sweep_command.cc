@@ -170,7 +170,7 @@ int Sweep(const SweepCommand& command) {
   const bool all = command.one_case.empty() && command.range.empty();
   const SweepConfig sweep =
       LoadSweep(command.sweep, command.overrides, all && !command.collect && !command.list_cases,
-                command.methods);
+                command.tools);
   if (command.check) {
     if (!command.quiet) std::cout << sweep.name << ": " << NumSweepCases(sweep) << " cases\n";
     return kSuccess;
@@ -193,9 +193,9 @@ int Sweep(const SweepCommand& command) {
   return kFailed;
 }
 
-CommandAction DeclareSweep(CLI::App* app, const Methods& methods) {
+CommandAction DeclareSweep(CLI::App* app, const Toolbox& tools) {
   const auto command = std::make_shared<SweepCommand>();
-  command->methods = methods;
+  command->tools = tools;
   const auto sets = std::make_shared<std::vector<std::string>>();
   command->jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   app->add_option("SWEEP", command->sweep, "sweep, a YAML file")->required();

@@ -56,9 +56,9 @@ ExitStatus StatusOf(const std::vector<verify::MethodVerification>& results) {
   return std::ranges::all_of(results, &Result::verified) ? kSuccess : kTooCoarse;
 }
 
-CommandAction DeclareVerify(CLI::App* app, const Methods& methods) {
+CommandAction DeclareVerify(CLI::App* app, const Toolbox& tools) {
   const auto options = std::make_shared<verify::VerifyOptions>();
-  options->methods = methods;
+  options->tools = tools;
   const auto quiet = std::make_shared<bool>(false), verbose = std::make_shared<bool>(false),
              json = std::make_shared<bool>(false);
   app->add_option("RUN", options->run, "run folder")->required();

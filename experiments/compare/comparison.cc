@@ -18,9 +18,7 @@ MethodKey KeyOf(const MethodRecord& record) {
   return {record.name, record.variables, record.objective};
 }
 
-double Of(const RuntimeToTarget& effort, bool by_wall) {
-  return by_wall ? effort.wall : effort.instants;
-}
+double Of(const RuntimeToTarget& work, bool by_wall) { return by_wall ? work.wall : work.instants; }
 
 // Puts a method into its case, unless it is there already with the same outcome.
 void Add(const MethodRecord& record, ComparedCase* one) {
@@ -112,7 +110,7 @@ void Measure(ComparedCase* one) {
   }
 }
 
-// The least (largest) effort of any method but raw that met a target in a case.
+// The least (largest) work of any method but raw that met a target in a case.
 std::optional<double> Extreme(const ComparedCase& one, size_t target, bool by_wall, bool least) {
   std::optional<double> found;
   for (const ComparedMethod& method : one.methods) {
@@ -136,7 +134,7 @@ std::vector<double> Ratios(const Comparison& comparison, const MethodKey& key, s
   return ratios;
 }
 
-double MeanEffort(const Comparison& comparison, const MethodKey& key, size_t target, bool by_wall) {
+double MeanWork(const Comparison& comparison, const MethodKey& key, size_t target, bool by_wall) {
   double sum = 0.0;
   int count = 0;
   for (const ComparedCase& one : comparison.cases) {
@@ -232,8 +230,7 @@ std::vector<MethodMeans> Means(const Comparison& comparison) {
     }
     mean.speedup = std::exp(logs / mean.cases);
     for (size_t k = 0; k < kNumTargets; ++k) {
-      mean.effort[k] = {MeanEffort(comparison, key, k, true),
-                        MeanEffort(comparison, key, k, false)};
+      mean.work[k] = {MeanWork(comparison, key, k, true), MeanWork(comparison, key, k, false)};
     }
   }
   return means;

@@ -71,20 +71,20 @@ Comparison Compare(const std::vector<RunRecord>& runs);
 const ComparedMethod* Find(const ComparedCase& one, const MethodKey& method);
 
 /// One curve of a performance profile: the fraction of all cases that a method solved within
-/// `ratio` times the least effort of any method there. Efforts below 1 ms or one evaluation count
+/// `ratio` times the least work of any method there. Work below 1 ms or one evaluation counts
 /// as that. Source: [DolanMore2002].
 struct ProfileCurve {
   int target = 0;        ///< of kTargets
-  bool by_wall = false;  ///< the effort is wall time [s]; else instants
+  bool by_wall = false;  ///< the work is wall time [s]; else instants
   MethodKey method;      ///< whose curve this is
   std::vector<std::pair<double, double>>
       points;  ///< (ratio ≥ 1, fraction), both rising; a staircase
 };
-/// A curve for each target, each kind of effort and each method, in this order.
+/// A curve for each target, each kind of work and each method, in this order.
 std::vector<ProfileCurve> PerformanceProfiles(const Comparison& comparison);
 
-/// A method over all cases. A failure counts as ten times the largest effort that met the target in
-/// that case, and as speed-up 1; cases that nobody solved are left out of the means of efforts.
+/// A method over all cases. A failure counts as ten times the largest work that met the target in
+/// that case, and as speed-up 1; cases that nobody solved are left out of the means of work.
 struct MethodMeans {
   MethodKey method;  ///< whose means these are
   /// Cases of its objective; those where it was not run; those where its walk is certified.
@@ -95,7 +95,7 @@ struct MethodMeans {
   double speedup = 1.0;  ///< geometric mean
   /// Shifted geometric means exp(mean log(v + s)) − s with s = 0.1 s and 1000 instants; nan
   /// when no case counts.
-  std::array<RuntimeToTarget, kNumTargets> effort;
+  std::array<RuntimeToTarget, kNumTargets> work;
 };
 /// One entry for each method of the comparison, in its order.
 std::vector<MethodMeans> Means(const Comparison& comparison);

@@ -11,8 +11,8 @@ std::string Left(const std::string& text, size_t width) {
   return text + std::string(width - std::min(width, text.size()) + 2, ' ');
 }
 
-std::string Seconds(const std::optional<RuntimeToTarget>& effort) {
-  return effort ? Formatted("%9.3f s", effort->wall) : Formatted("%11s", "never");
+std::string Seconds(const std::optional<RuntimeToTarget>& work) {
+  return work ? Formatted("%9.3f s", work->wall) : Formatted("%11s", "never");
 }
 
 std::string Mean(double value, const char* format) {
@@ -107,7 +107,7 @@ std::string ComparisonScreen(const Comparison& comparison) {
         Left(mean.method.objective, 9) +
         Formatted("%5d %8d %9d %6d %8d %8d %8d %7.2fx", mean.cases, mean.missing, mean.certified,
                   mean.failed(), mean.solved[2], mean.solved[1], mean.solved[0], mean.speedup);
-    for (size_t target : {2, 1, 0}) text += " " + Mean(mean.effort[target].wall, "%9.3f s");
+    for (size_t target : {2, 1, 0}) text += " " + Mean(mean.work[target].wall, "%9.3f s");
     text += "\n";
   }
   return text;

@@ -16,8 +16,8 @@ namespace {
 using enum CsvType;
 constexpr size_t kOnePercent = 0, kFivePercent = 1;
 
-void EffortCell(const std::optional<RuntimeToTarget>& effort, bool by_wall, CsvWriter* csv) {
-  effort ? csv->Cell(by_wall ? effort->wall : effort->instants) : csv->Empty();
+void WorkCell(const std::optional<RuntimeToTarget>& work, bool by_wall, CsvWriter* csv) {
+  work ? csv->Cell(by_wall ? work->wall : work->instants) : csv->Empty();
 }
 
 // An empty cell would make a column of them something else to pandas.
@@ -85,8 +85,8 @@ CsvFile ComparisonCsv(const Comparison& comparison) {
       record.gap_to_reference ? csv.Cell(*record.gap_to_reference) : csv.Empty();
       csv.Cell(record.instants).Cell(record.collision_queries).Cell(record.wall);
       for (bool by_wall : {true, false}) {
-        EffortCell(method.reached[kFivePercent], by_wall, &csv);
-        EffortCell(method.reached[kOnePercent], by_wall, &csv);
+        WorkCell(method.reached[kFivePercent], by_wall, &csv);
+        WorkCell(method.reached[kOnePercent], by_wall, &csv);
       }
       csv.Cell(LooksLikeFormula(record.run) ? "./" + record.run : record.run);
       if (with_bound) record.gap_lipm ? csv.Cell(*record.gap_lipm) : csv.Empty();
@@ -103,7 +103,7 @@ CsvFile PerformanceProfileCsv(const Comparison& comparison) {
       {"method", kString, "", "its name, with the label of its run"},
       {"variables", kString, "", "of the method, none for raw"},
       {"objective", kString, "", "what the method pursued"},
-      {"ratio", kNumber, "1", "effort divided by the least of any method in that scenario"},
+      {"ratio", kNumber, "1", "work divided by the least of any method in that scenario"},
       {"fraction", kNumber, "1", "of the scenarios that were solved within this ratio", "",
        CsvInterpolation::kPiecewiseConstant},
   });
@@ -180,8 +180,8 @@ CsvFile MeansCsv(const Comparison& comparison) {
     csv.Cell(mean.certified).Cell(mean.failed());
     for (int solved : mean.solved) csv.Cell(solved);
     csv.Cell(mean.speedup);
-    for (const RuntimeToTarget& effort : mean.effort) csv.Cell(effort.wall);
-    for (const RuntimeToTarget& effort : mean.effort) csv.Cell(effort.instants);
+    for (const RuntimeToTarget& work : mean.work) csv.Cell(work.wall);
+    for (const RuntimeToTarget& work : mean.work) csv.Cell(work.instants);
     csv.EndRow();
   }
   return csv.file();

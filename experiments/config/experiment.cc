@@ -156,6 +156,26 @@ HalfStepSequence SequenceOf(const ExperimentConfig& config, const RobotModel& ro
                       ShapeOf(config.half_step), MotionModelOf(robot));
 }
 
+ExperimentConfig Changed(ExperimentConfig config, const std::vector<PlanChange>& changes) {
+  const auto set = [](const std::optional<double>& value, auto* changed) {
+    if (value) *changed = *value;
+  };
+  for (const PlanChange& change : changes) {
+    if (!change.step) {
+      set(change.duration, &config.half_step.duration);
+      set(change.via_height, &config.half_step.via_height);
+      continue;
+    }
+    FootstepConfig& footstep = Nth(config.footsteps, *change.step);
+    set(change.duration, &footstep.duration);
+    set(change.via_height, &footstep.via_height);
+    if (!change.landing) continue;
+    footstep.X_WF.x = change.landing->x();
+    footstep.X_WF.y = change.landing->y();
+  }
+  return config;
+}
+
 Experiment Prepare(const ExperimentConfig& config, Place place) {
   Experiment experiment{.config = config,
                         .robot = std::move(place.robot),

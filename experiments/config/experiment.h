@@ -10,6 +10,7 @@
 #include "experiments/config/experiment_config.h"
 #include "planner/scene/scene.h"
 #include "smoothing/margins/margin_evaluator.h"
+#include "smoothing/methods/plan_change.h"
 #include "wpg/geometry/foothold.h"
 #include "wpg/ground/ground.h"
 #include "wpg/motion/half_step_sequence.h"
@@ -66,6 +67,9 @@ std::shared_ptr<const MotionModel> MotionModelOf(const RobotModel& robot);
 /// The half-steps of a config's footsteps; empty without footsteps.
 HalfStepSequence SequenceOf(const ExperimentConfig& config, const RobotModel& robot,
                             const Ground& ground);
+/// The config whose plan goes another way: with these durations, heights and landings, of single
+/// footsteps or of `half_step`.
+ExperimentConfig Changed(ExperimentConfig config, const std::vector<PlanChange>& changes);
 /// Makes the experiment in a place that is loaded; without footsteps its sequence is empty.
 Experiment Prepare(const ExperimentConfig& config, Place place);
 /// The same, in the place that LoadPlace() loads. Throws InputError.

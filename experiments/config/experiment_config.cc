@@ -226,9 +226,10 @@ void DeclareFilesThere(Fields& fields, const ExperimentConfig& config) {
   }
 }
 
-std::vector<KeyDescription> ConfigKeys(Methods methods) {
+std::vector<KeyDescription> ConfigKeys(Toolbox tools) {
   ExperimentConfig config;
-  SetKnown(std::move(methods), &config.smoothing);
+  SetKnown(std::move(tools.methods), &config.smoothing);
+  config.planner.known = std::move(tools.planners);
   std::vector<KeyDescription> keys =
       DescribeKeys([&config](Fields& fields) { DeclareFields(fields, &config); });
   DescribeScaling(&keys);
@@ -236,15 +237,16 @@ std::vector<KeyDescription> ConfigKeys(Methods methods) {
 }
 
 ExperimentConfig LoadConfig(const std::string& path, const std::vector<YamlOverride>& overrides,
-                            Methods methods) {
-  return ParseConfig(path, ReadYamlFile(path), overrides, std::move(methods));
+                            Toolbox tools) {
+  return ParseConfig(path, ReadYamlFile(path), overrides, std::move(tools));
 }
 
 ExperimentConfig ParseConfig(const std::string& path, const std::string& text,
-                             const std::vector<YamlOverride>& overrides, Methods methods) {
+                             const std::vector<YamlOverride>& overrides, Toolbox tools) {
   const std::filesystem::path file(path);
   ExperimentConfig config;
-  SetKnown(std::move(methods), &config.smoothing);
+  SetKnown(std::move(tools.methods), &config.smoothing);
+  config.planner.known = std::move(tools.planners);
   config.name = file.stem().string();
   ReadYamlText(text, path, file.parent_path().string(), overrides, [&](Fields& fields) {
     DeclareFields(fields, &config);

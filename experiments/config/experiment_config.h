@@ -7,7 +7,7 @@
 #include "experiments/config/half_step_config.h"
 #include "experiments/config/planning_config.h"
 #include "experiments/config/smoothing_config.h"
-#include "smoothing/methods/methods.h"
+#include "experiments/config/toolbox.h"
 #include "wpg/files/fields.h"
 #include "wpg/files/key_description.h"
 #include "wpg/files/yaml_fields.h"
@@ -67,15 +67,14 @@ void DeclareFields(Fields& fields, ExperimentConfig* config);
 void DeclareFilesThere(Fields& fields, const ExperimentConfig& config);
 
 /// The keys that DeclareFields declares, as data; defaults that go by the robot as formulas.
-std::vector<KeyDescription> ConfigKeys(Methods methods = Methods::Standard());
+std::vector<KeyDescription> ConfigKeys(Toolbox tools = {});
 
-/// Reads a config file strictly; it may name these methods, and give them options. Throws
+/// Reads a config file strictly; it may name what these tools hold, and give it options. Throws
 /// InputError with every complaint at once.
 ExperimentConfig LoadConfig(const std::string& path, const std::vector<YamlOverride>& overrides,
-                            Methods methods = Methods::Standard());
+                            Toolbox tools = {});
 /// The same for a config file's text.
 ExperimentConfig ParseConfig(const std::string& path, const std::string& text,
-                             const std::vector<YamlOverride>& overrides,
-                             Methods methods = Methods::Standard());
+                             const std::vector<YamlOverride>& overrides, Toolbox tools = {});
 
 }  // namespace halfstep

@@ -1,19 +1,19 @@
 #include "experiments/config/known_names.h"
 
-#include "planner/search/planner_registry.h"
 #include "smoothing/margins/family_traits.h"
 
 namespace halfstep {
 
-KnownNames NamesOfConfigs(const Methods& methods) {
-  KnownNames names{.methods = methods.Names(),
+KnownNames NamesOfConfigs(const Toolbox& tools) {
+  KnownNames names{.methods = tools.methods.Names(),
                    .own_options = {},
-                   .planners = PlannerNames(),
+                   .planners = tools.planners.Names(),
                    .weights = {"com_acceleration", "com_jerk", "foot_speed"},
                    .own_margin = std::string(Traits(MarginFamily::kOwn).key),
-                   .has_own_margins = !methods.own_margins().empty()};
-  for (const DeclaredGroup& group : methods.OwnGroups()) names.own_options.push_back(group.key);
-  for (const WeightedWalkCost& own : methods.own_costs()) {
+                   .has_own_margins = !tools.methods.own_margins().empty()};
+  for (const DeclaredGroup& group : tools.methods.OwnGroups())
+    names.own_options.push_back(group.key);
+  for (const WeightedWalkCost& own : tools.methods.own_costs()) {
     names.weights.push_back(own.cost->name());
   }
   return names;

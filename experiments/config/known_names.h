@@ -16,8 +16,8 @@ struct KnownNames {
   std::string own_margin;                ///< key under `smoothing.margins` of the family `own`
   bool has_own_margins = false;          ///< whether there is one, and that key is read
 };
-/// With these methods, and with the planners that are registered now.
-KnownNames NamesOfConfigs(const Methods& methods = Methods::Standard());
+/// With these tools.
+KnownNames NamesOfConfigs(const Toolbox& tools = {});
 
 /// What a config demands of a margin family.
 struct NamedDemand {

@@ -118,7 +118,7 @@ void DeclareGoal(Fields& fields, GoalConfig* c) {
 void DeclarePlanner(Fields& fields, PlannerConfig* c) {
   fields.Text("name", &c->name,
               {.meaning = "which planner",
-               .choices = PlannerNames(),
+               .choices = c->known.Names(),
                .listed_by = "halfstep list planners"});
   fields.Text("cost", &c->cost,
               {.meaning = "of a plan; the last is an estimate", .choices = NamesOf(kCosts)});

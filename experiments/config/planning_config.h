@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/search/planner_registry.h"
+#include "planner/search/planners.h"
 #include "planner/search/step_set.h"
 #include "planner/swept/swept_volume.h"
 #include "wpg/files/fields.h"
@@ -25,7 +25,7 @@ struct GoalConfig {
 
 /// The group `planner`.
 struct PlannerConfig {
-  std::string name = "rrt";       ///< one of PlannerNames()
+  std::string name = "rrt";       ///< one of known.Names()
   std::string cost = "steps";     ///< a name of CostKind
   StepCost estimate;              ///< its numbers; Cost() sets its kind by `cost`
   int max_nodes = 100000;         ///< ends the search
@@ -34,6 +34,7 @@ struct PlannerConfig {
   int max_refusals = 5;           ///< plans that the full check may refuse before planning ends
   std::vector<double> workspace;  ///< x_min, y_min, x_max, y_max [m]; empty: the planner's
   PlannerOptions options;         ///< of the planner by that name
+  Planners known = Planners::Standard();  ///< those that `name` may name
 
   /// The cost that plans are compared by.
   StepCost Cost() const;

@@ -80,11 +80,14 @@ void DeclareGroups(Fields& fields, const std::vector<DeclaredGroup>& groups,
   }
 }
 
-// A program without methods of its own has no such key, but takes it where it is empty.
 void DeclareOwn(Fields& fields, SmoothingConfig* c) {
   const std::vector<DeclaredGroup> own = c->known.OwnGroups();
-  const std::vector<std::string> keys = fields.Keys();
-  if (own.empty() && std::ranges::find(keys, "own") == keys.end()) return;
+  if (own.empty()) {
+    fields.Misplaced("own",
+                     "there is none: this program added no methods with options (valid: "
+                     "without this key)");
+    return;
+  }
   fields.Group("own", {.meaning = "options of methods that this program added"},
                [&](Fields& f) { DeclareGroups(f, own, &c->options); });
 }

@@ -22,7 +22,7 @@ Eigen::VectorXd Descend(opt::SolveMonitor& monitor, const Eigen::VectorXd& x0) {
 int main(int argc, char** argv) {
   Methods methods = Methods::Standard();
   methods.AddSolver(opt::MakeFunctionSolver("mine/descent", Descend));
-  if (argc > 1) return RunExperiment(argc, argv, methods);  // configs may name mine/descent now
+  if (argc > 1) return RunExperiment(argc, argv, {methods});  // configs may name mine/descent now
   const ExperimentConfig config =
       LoadConfig((DataFolder() / "configs/bar_8cm.yaml").string(),
                  {{"smoothing.optimizer.durations", "true"}, {"smoothing.optimizer.rounds", "2"}});

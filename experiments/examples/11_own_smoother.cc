@@ -47,7 +47,7 @@ class ScaleAll : public Smoother {
 int main(int argc, char** argv) {
   Methods methods = Methods::Standard();
   methods.Add(std::make_shared<ScaleAll>());
-  if (argc > 1) return RunExperiment(argc, argv, methods);  // configs may name mine/scale now
+  if (argc > 1) return RunExperiment(argc, argv, {methods});  // configs may name mine/scale now
   const WalkProblem problem =
       ProblemOf(Prepare(LoadConfig((DataFolder() / "configs/bar_8cm.yaml").string(), {})));
   for (const char* method : {"mine/scale", "dichotomy"}) {

@@ -90,8 +90,8 @@ std::vector<TouchedObstacle> FindTouches(const Episode& episode, const TrueWorld
 }
 
 Approach NearestApproach(const Episode& episode, const TrueWorld& truth, const RobotModel& robot,
-                         double period, double horizon, bool also_at_rest) {
-  Approach nearest{.distance = horizon, .t = 0.0, .obstacle = {}, .body = {}};
+                         double period, double cap, bool also_at_rest) {
+  Approach nearest{.distance = cap, .t = 0.0, .obstacle = {}, .body = {}};
   if (episode.walks.empty()) return nearest;
   const SuperposedWalk walk = episode.Executed();
   const double end = also_at_rest ? episode.end : std::min(walk.duration(), episode.end);

@@ -13,18 +13,18 @@ namespace halfstep {
 
 /// The nearest that the walking robot truly came to an obstacle.
 struct Approach {
-  double distance = 0.0;  ///< [m], at most the horizon that was asked for; ≤ 0: it touched
+  double distance = 0.0;  ///< [m], at most the cap that was asked for; ≤ 0: it touched
   double t = 0.0;         ///< [s]
-  std::string obstacle;   ///< "": none within the horizon
+  std::string obstacle;   ///< "": none within the cap
   std::string body;       ///< of the robot; "" where there is no obstacle
 };
 
 /// Looks at the executed motion every `period` [s] while it moves, at the obstacles where they
 /// truly are then. Sampled: what happens between the instants is not seen. Instants at which the
 /// robot is at rest do not count: an obstacle that is carried against a standing robot is not its
-/// doing. Obstacles nearer than `horizon` [m] are told.
+/// doing. Obstacles nearer than `cap` [m] are told.
 Approach NearestApproach(const Episode& episode, const TrueWorld& truth, const RobotModel& robot,
-                         double period, double horizon, bool also_at_rest = false);
+                         double period, double cap, bool also_at_rest = false);
 
 /// The obstacles that the robot touches while it moves: each with the first instant, every kLook,
 /// that lies within a half-step at which it touches the obstacle where it truly is. In the order of

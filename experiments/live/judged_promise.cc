@@ -27,7 +27,7 @@ std::string RoundedUp(double x) {
 
 // From when a half-step begins until the next one does, or the robot rests.
 struct UnderWay {
-  TimeWindow time;
+  TimeSpan time;
   int version = 0;  // of the world that it was proved against
 };
 
@@ -46,11 +46,11 @@ std::vector<UnderWay> HalfStepsOf(const Episode& episode) {
   return all;
 }
 
-// Windows in order, those that meet as one.
-std::vector<TimeWindow> Merged(std::vector<TimeWindow> windows) {
-  std::ranges::sort(windows, {}, &TimeWindow::begin);
-  std::vector<TimeWindow> merged;
-  for (const TimeWindow& one : windows) {
+// Spans in order, those that meet as one.
+std::vector<TimeSpan> Merged(std::vector<TimeSpan> spans) {
+  std::ranges::sort(spans, {}, &TimeSpan::begin);
+  std::vector<TimeSpan> merged;
+  for (const TimeSpan& one : spans) {
     if (!merged.empty() && one.begin <= merged.back().end + kRoundingOfLooks) {
       merged.back().end = std::max(merged.back().end, one.end);
     } else {
@@ -153,7 +153,7 @@ class Judge {
   }
 
   void LookAt(const TrueWorld& truth, const std::vector<double>& radii, const World& world,
-              const TimeWindow& look) {
+              const TimeSpan& look) {
     const double t = look.begin;
     const std::vector<Obstacle>& stated = world.scene.obstacles;
     for (size_t i = 0; i < radii.size(); ++i) {

@@ -227,9 +227,10 @@ void DeclareFields(Fields& fields, LiveConfig* config, const Scene* scene) {
   }
 }
 
-std::vector<KeyDescription> EpisodeKeys(Methods methods) {
+std::vector<KeyDescription> EpisodeKeys(Toolbox tools) {
   LiveConfig config;
-  SetKnown(std::move(methods), &config.experiment.smoothing);
+  SetKnown(std::move(tools.methods), &config.experiment.smoothing);
+  config.experiment.planner.known = std::move(tools.planners);
   std::vector<KeyDescription> keys =
       DescribeKeys([&config](Fields& fields) { DeclareFields(fields, &config); });
   DescribeScaling(&keys);
@@ -237,17 +238,18 @@ std::vector<KeyDescription> EpisodeKeys(Methods methods) {
 }
 
 LiveConfig LoadLiveConfig(const std::string& path, const std::vector<YamlOverride>& overrides,
-                          Methods methods) {
-  return ParseLiveConfig(path, ReadYamlFile(path), overrides, nullptr, std::move(methods));
+                          Toolbox tools) {
+  return ParseLiveConfig(path, ReadYamlFile(path), overrides, nullptr, std::move(tools));
 }
 
 LiveConfig ParseLiveConfig(const std::string& path, const std::string& text,
                            const std::vector<YamlOverride>& overrides, const Scene* scene,
-                           Methods methods) {
+                           Toolbox tools) {
   const std::filesystem::path file(path);
   LiveConfig config;
   config.experiment.name = file.stem().string();
-  SetKnown(std::move(methods), &config.experiment.smoothing);
+  SetKnown(std::move(tools.methods), &config.experiment.smoothing);
+  config.experiment.planner.known = std::move(tools.planners);
   ReadYamlText(text, path, file.parent_path().string(), overrides, [&](Fields& fields) {
     DeclareFields(fields, &config, scene);
     config.experiment.directory = fields.directory();

@@ -89,14 +89,14 @@ std::vector<SceneMistake> MistakesOf(const LiveOptions& options, const Scene& sc
 void DeclareFields(Fields& fields, LiveConfig* config, const Scene* scene = nullptr);
 
 /// The keys that DeclareFields declares, as data; defaults that go by the robot as formulas.
-std::vector<KeyDescription> EpisodeKeys(Methods methods = Methods::Standard());
+std::vector<KeyDescription> EpisodeKeys(Toolbox tools = {});
 
 /// Reads a config file strictly. Throws InputError with every complaint at once.
 LiveConfig LoadLiveConfig(const std::string& path, const std::vector<YamlOverride>& overrides,
-                          Methods methods = Methods::Standard());
+                          Toolbox tools = {});
 /// The same for a config file's text; `scene` as in DeclareFields.
 LiveConfig ParseLiveConfig(const std::string& path, const std::string& text,
                            const std::vector<YamlOverride>& overrides, const Scene* scene = nullptr,
-                           Methods methods = Methods::Standard());
+                           Toolbox tools = {});
 
 }  // namespace halfstep

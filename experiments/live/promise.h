@@ -42,7 +42,7 @@ struct BrokenPromise {
   /// When half-steps were under way for whose clearance from it nothing vouches: what was true is
   /// outside, or a later frame contradicts their world. In order, apart; empty: the robot stood
   /// [s].
-  std::vector<TimeWindow> unproved;
+  std::vector<TimeSpan> unproved;
 
   /// Takes in a place that it should not have been at, known by so many measurements: 2, or 1 where
   /// what was true is compared with a measurement.

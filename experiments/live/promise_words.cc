@@ -21,7 +21,7 @@ ordered_json NumberOrNull(const std::optional<double>& value) {
 
 ordered_json BrokenJson(const BrokenPromise& broken) {
   ordered_json unproved = ordered_json::array();
-  for (const TimeWindow& one : broken.unproved) unproved.push_back({one.begin, one.end});
+  for (const TimeSpan& one : broken.unproved) unproved.push_back({one.begin, one.end});
   return {{"name", broken.name},
           {"was_there", broken.was_there},
           {"from_s", broken.from},
@@ -82,7 +82,7 @@ std::string WhatItDid(const BrokenPromise& broken) {
 std::string WhatWasUnproved(const BrokenPromise& broken) {
   if (broken.unproved.empty()) return "the robot stood";
   double sum = 0.0;
-  for (const TimeWindow& one : broken.unproved) sum += one.end - one.begin;
+  for (const TimeSpan& one : broken.unproved) sum += one.end - one.begin;
   const auto& [begin, end] = broken.unproved.front();
   std::string text =
       Formatted("walked without proof of its clearance from it: %.3f s … %.3f s", begin, end);

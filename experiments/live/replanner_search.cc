@@ -5,7 +5,7 @@
 #include "experiments/live/prepared_world.h"
 #include "experiments/live/replanner.h"
 #include "experiments/run/planning.h"
-#include "planner/search/planner_registry.h"
+#include "planner/search/planners.h"
 
 namespace halfstep {
 
@@ -44,7 +44,8 @@ PlanResult Replanner::Search(const std::array<Foothold, 2>& stance,
   request.stop = AnyOf({AfterNodes(max_nodes), options.unimproved_nodes == 0
                                                    ? AtFirstPlan()
                                                    : WhenNotImprovedFor(options.unimproved_nodes)});
-  return MakePlanner(options.name, among.world.scene, options.options)->Plan(request, random);
+  return options.known.Make(options.name, among.world.scene, options.options)
+      ->Plan(request, random);
 }
 
 }  // namespace halfstep

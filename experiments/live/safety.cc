@@ -40,9 +40,9 @@ Safety SafetyCheck::Prove(const SuperposedWalk& walk, int first, int last, doubl
   MarginEvaluator::Scratch scratch = evaluator_.MakeScratch();
   Safety safety{.through = first - 1, .refused_by = {}};
   for (int j = first; j <= std::min(last, walk.num_half_steps() - 1); ++j) {
-    const TimeWindow window{std::max(walk.start_of(j), since), walk.end_of(j)};
-    if (window.end > window.begin && !(known && known(j))) {
-      const Feasibility answer = test.Check(walk.StopBranch(j), window, &scratch);
+    const TimeSpan span{std::max(walk.start_of(j), since), walk.end_of(j)};
+    if (span.end > span.begin && !(known && known(j))) {
+      const Feasibility answer = test.Check(walk.StopBranch(j), span, &scratch);
       if (answer.verdict != Verdict::kFeasible) {
         safety.refused_by = answer.witness;
         return safety;

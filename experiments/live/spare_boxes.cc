@@ -30,14 +30,14 @@ Place LoadEpisodePlace(const LiveConfig& config) {
 
 LoadedEpisode LoadEpisode(const std::string& path, const std::vector<YamlOverride>& overrides,
                           const std::function<LiveConfig(LiveConfig)>& change,
-                          const Methods& methods) {
+                          const Toolbox& tools) {
   const std::string text = ReadYamlFile(path);
-  LoadedEpisode loaded{.config = change(ParseLiveConfig(path, text, overrides, nullptr, methods)),
+  LoadedEpisode loaded{.config = change(ParseLiveConfig(path, text, overrides, nullptr, tools)),
                        .place = {}};
   loaded.place = LoadPlace(loaded.config.experiment);
   loaded.place.scene = WithSpareBoxes(std::move(loaded.place.scene), loaded.config.live);
   // Again for its complaints: where in the file something stands that does not fit the scene.
-  (void)ParseLiveConfig(path, text, overrides, &loaded.place.scene, methods);
+  (void)ParseLiveConfig(path, text, overrides, &loaded.place.scene, tools);
   return loaded;
 }
 

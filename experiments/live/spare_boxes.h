@@ -26,6 +26,6 @@ struct LoadedEpisode {
 /// complaint, those about what does not fit the scene at their places in the file.
 LoadedEpisode LoadEpisode(const std::string& path, const std::vector<YamlOverride>& overrides,
                           const std::function<LiveConfig(LiveConfig)>& change,
-                          const Methods& methods = Methods::Standard());
+                          const Toolbox& tools = {});
 
 }  // namespace halfstep

@@ -1,5 +1,6 @@
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <charconv>
 #include <filesystem>
 #include <string>
@@ -9,7 +10,6 @@
 #include "experiments/config/experiment_config.h"
 #include "experiments/python/bindings.h"
 #include "opt/adapters/solver_registry.h"
-#include "planner/search/planner_registry.h"
 #include "wpg/files/yaml_node.h"
 
 namespace py = pybind11;
@@ -92,47 +92,59 @@ py::dict Stems(const fs::path& folder) {
   return files;
 }
 
-py::dict SolverReasons(const Methods& known) {
+py::dict SolverReasons(const Toolbox& tools) {
   py::dict reasons;
   for (const std::string& name : opt::SolverNames()) {
     const auto solver = opt::MakeSolver(name);
     reasons[py::str(name)] = solver->available() ? "" : solver->WhyUnavailable();
   }
-  for (const auto& own : known.own_solvers()) reasons[py::str(own->name())] = "";
+  for (const auto& own : tools.methods.own_solvers()) reasons[py::str(own->name())] = "";
   return reasons;
 }
 
-py::dict Meanings(const Methods& known) {
+py::dict Meanings(const Toolbox& tools) {
   py::dict methods;
-  for (const auto& method : known.all()) methods[py::str(method->name())] = method->meaning();
+  for (const auto& method : tools.methods.all())
+    methods[py::str(method->name())] = method->meaning();
   return methods;
 }
 
-// The groups of `smoothing` that hold the options of a method.
-std::vector<std::string> OptionGroups(const Methods& known, const std::string& method) {
-  std::vector<std::string> keys;
-  for (const DeclaredGroup& group : known.Find(method).groups()) keys.push_back(group.key);
-  return keys;
+// The groups that hold the options of a method: where they are below `smoothing`, and their keys.
+py::list OptionGroups(const Toolbox& tools, const std::string& method) {
+  py::list groups;
+  const std::vector<DeclaredGroup> own = tools.methods.OwnGroups();
+  for (const DeclaredGroup& group : tools.methods.Find(method).groups()) {
+    std::vector<std::string> path, keys;
+    if (std::ranges::find(own, group.key, &DeclaredGroup::key) != own.end()) path = {"own"};
+    path.push_back(group.key);
+    MethodOptions options;
+    for (const KeyDescription& key :
+         DescribeKeys([&](Fields& fields) { group.declare(fields, &options); })) {
+      keys.push_back(key.key());
+    }
+    groups.append(py::make_tuple(path, keys));
+  }
+  return groups;
 }
 
 }  // namespace
 
-void BindConfig(py::module_& module, const ModuleMethods& methods) {
-  module.def("load_config", [methods](const std::string& path, const Overrides& overrides) {
-    return Resolved(LoadConfig(path, ToOverrides(overrides), *methods));
+void BindConfig(py::module_& module, const ModuleTools& tools) {
+  module.def("load_config", [tools](const std::string& path, const Overrides& overrides) {
+    return Resolved(LoadConfig(path, ToOverrides(overrides), *tools));
   });
-  module.def("resolve_config", [methods](const std::string& path, const std::string& text) {
-    return Resolved(ParseConfig(path, text, {}, *methods));
+  module.def("resolve_config", [tools](const std::string& path, const std::string& text) {
+    return Resolved(ParseConfig(path, text, {}, *tools));
   });
   module.def("data_folder", [] { return DataFolder().string(); });
   module.def("robots", [] { return Stems(RobotsFolder()); });
   module.def("scenes", [] { return Stems(ScenesFolder()); });
   module.def("configs", [] { return Stems(DataFolder() / "configs"); });
-  module.def("methods", [methods] { return Meanings(*methods); });
+  module.def("methods", [tools] { return Meanings(*tools); });
   module.def("option_groups",
-             [methods](const std::string& method) { return OptionGroups(*methods, method); });
-  module.def("solvers", [methods] { return SolverReasons(*methods); });
-  module.def("planners", &PlannerNames);
+             [tools](const std::string& method) { return OptionGroups(*tools, method); });
+  module.def("solvers", [tools] { return SolverReasons(*tools); });
+  module.def("planners", [tools] { return tools->planners.Names(); });
 }
 
 }  // namespace halfstep::python

@@ -87,12 +87,12 @@ py::dict ResultOf(const std::shared_ptr<const WalkSetting>& setting, const std::
   return dict;
 }
 
-py::dict Smooth(const Methods& methods, const PlacedExperiment& placed, const std::string& method,
+py::dict Smooth(const Toolbox& tools, const PlacedExperiment& placed, const std::string& method,
                 const std::string& text, double deadline, const py::object& progress) {
   const auto setting = placed.Setting();
-  const Smoother& smoother = methods.Find(method);
+  const Smoother& smoother = tools.methods.Find(method);
   const ExperimentConfig config =
-      text.empty() ? placed.config : ParseConfig(placed.path, text, {}, methods);
+      text.empty() ? placed.config : ParseConfig(placed.path, text, {}, tools);
   const MethodOptions options = OptionsOf(config);
   SmoothingResult result;
   CallLong(progress, [&](const LongCallHooks& hooks) {
@@ -130,8 +130,8 @@ std::vector<std::string> Missed(const PlacedExperiment& placed) {
 }  // namespace
 
 PlacedExperiment::PlacedExperiment(const std::string& file, const std::string& text,
-                                   const Scene* scene, const Methods& methods)
-    : path(file), config(ParseConfig(file, text, {}, methods)) {
+                                   const Scene* scene, const Toolbox& tools)
+    : path(file), config(ParseConfig(file, text, {}, tools)) {
   Place place = LoadPlace(config);
   if (scene != nullptr) place.scene = *scene;
   experiment = Prepare(config, std::move(place));
@@ -152,13 +152,12 @@ std::shared_ptr<const WalkSetting> PlacedExperiment::Setting() const {
   return setting;
 }
 
-void BindExperiment(py::module_& module, const ModuleMethods& methods) {
+void BindExperiment(py::module_& module, const ModuleTools& tools) {
   py::class_<PlacedExperiment, std::shared_ptr<PlacedExperiment>>(module, "Experiment")
-      .def(
-          py::init([methods](const std::string& path, const std::string& text, const Scene* scene) {
-            return std::make_shared<PlacedExperiment>(path, text, scene, *methods);
-          }),
-          py::call_guard<py::gil_scoped_release>())
+      .def(py::init([tools](const std::string& path, const std::string& text, const Scene* scene) {
+             return std::make_shared<PlacedExperiment>(path, text, scene, *tools);
+           }),
+           py::call_guard<py::gil_scoped_release>())
       .def_property_readonly("robot", [](const PlacedExperiment& p) { return p.experiment.robot; })
       .def_property_readonly("scene", [](const PlacedExperiment& p) { return p.experiment.scene; })
       .def_property_readonly("not_covered",
@@ -169,11 +168,10 @@ void BindExperiment(py::module_& module, const ModuleMethods& methods) {
       .def("walk", &WalkAt)
       .def("missed", &Missed)
       .def("plan", &Plan)
-      .def("smooth",
-           [methods](const PlacedExperiment& placed, const std::string& method,
-                     const std::string& text, double deadline, const py::object& progress) {
-             return Smooth(*methods, placed, method, text, deadline, progress);
-           });
+      .def("smooth", [tools](const PlacedExperiment& placed, const std::string& method,
+                             const std::string& text, double deadline, const py::object& progress) {
+        return Smooth(*tools, placed, method, text, deadline, progress);
+      });
 }
 
 }  // namespace halfstep::python

@@ -30,6 +30,24 @@ void RequireNoSearch() {
   throw std::invalid_argument("a search is under way (valid: to register before it)");
 }
 
+NamedOptions ToNamedOptions(const py::list& given) {
+  NamedOptions options;
+  for (const py::handle& one : given) {
+    NamedOption& option = options.emplace_back();
+    const auto take = [&one](const char* key, auto* to) {
+      *to = one[key].template cast<std::remove_pointer_t<decltype(to)>>();
+    };
+    take("name", &option.name);
+    take("meaning", &option.meaning);
+    take("unit", &option.unit);
+    take("min", &option.min);
+    take("max", &option.max);
+    take("choices", &option.choices);
+    take("default", &option.value);
+  }
+  return options;
+}
+
 void BindTasks(py::module_& module) {
   using Released = py::call_guard<py::gil_scoped_release>;
   py::class_<SmoothingTask, std::shared_ptr<SmoothingTask>>(module, "SmoothingTask")
@@ -43,6 +61,14 @@ void BindTasks(py::module_& module) {
             return PlacedWalk{task.setting(),
                               SuperposedWalk(task.setting()->problem.sequence(), task.incumbent())};
           })
+      .def_property_readonly("options",
+                             [](const SmoothingTask& task) {
+                               py::dict options;
+                               for (const NamedOption& own : task.own()) {
+                                 options[py::str(own.name)] = own.value;
+                               }
+                               return options;
+                             })
       .def("program", &ProgramOf)
       .def(
           "propose",
@@ -84,7 +110,7 @@ void BindTasks(py::module_& module) {
 
 }  // namespace
 
-void BindExtension(py::module_& module, const ModuleMethods& methods) {
+void BindExtension(py::module_& module, const ModuleTools& tools) {
   BindTasks(module);
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
@@ -94,15 +120,15 @@ void BindExtension(py::module_& module, const ModuleMethods& methods) {
       PyErr_SetString(type.ptr(), stop.what());
     }
   });
-  module.def("register_smoother", [methods](const std::string& name, const std::string& meaning,
-                                            const py::function& function) {
+  module.def("register_smoother", [tools](const std::string& name, const std::string& meaning,
+                                          const py::list& options, const py::function& function) {
     RequireNoSearch();
-    methods->Add(MakePythonSmoother(name, meaning, function));
+    tools->methods.Add(MakePythonSmoother(name, meaning, ToNamedOptions(options), function));
   });
-  module.def("register_solver", [methods](const std::string& name, const py::function& function) {
+  module.def("register_solver", [tools](const std::string& name, const py::function& function) {
     RequireNoSearch();
     const py::handle kept = function.inc_ref();  // for ever: solvers are never removed
-    methods->AddSolver(MakePythonSolver(name, kept));
+    tools->methods.AddSolver(MakePythonSolver(name, kept));
   });
 }
 

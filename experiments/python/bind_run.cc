@@ -20,7 +20,7 @@ namespace {
 
 // As `halfstep run`: "" or why there is nothing to smooth, and a sentence on each method that
 // failed.
-std::pair<std::string, std::vector<std::string>> RunInto(const Methods& methods,
+std::pair<std::string, std::vector<std::string>> RunInto(const Toolbox& tools,
                                                          const std::string& path,
                                                          const std::string& text,
                                                          const std::string& out, bool overwrite,
@@ -28,7 +28,7 @@ std::pair<std::string, std::vector<std::string>> RunInto(const Methods& methods,
   std::string refusal;
   std::vector<std::string> failed;
   const auto work = [&](const LongCallHooks& call) {
-    const ExperimentConfig config = ParseConfig(path, text, {}, methods);
+    const ExperimentConfig config = ParseConfig(path, text, {}, tools);
     const RunHooks hooks{
         .progress = call.progress, .stop = call.stop, .stop_step = call.stop, .keep = {}};
     ExperimentRun run(config, hooks);
@@ -43,7 +43,7 @@ std::pair<std::string, std::vector<std::string>> RunInto(const Methods& methods,
     run.Certify(call.stop);
     if (call.stop.stop_requested()) return;
     run.Write(&folder);
-    WriteReport(run.experiment().robot, run.experiment().scene, &folder, methods);
+    WriteReport(run.experiment().robot, run.experiment().scene, &folder, tools);
     CompleteManifest(run.experiment().robot, run.experiment().scene, &folder);
     folder.Publish();
     for (const MethodRun& method : run.runs()) {
@@ -55,13 +55,13 @@ std::pair<std::string, std::vector<std::string>> RunInto(const Methods& methods,
   return {refusal, failed};
 }
 
-py::list VerifyFolder(const Methods& methods, const std::string& run,
+py::list VerifyFolder(const Toolbox& tools, const std::string& run,
                       const std::optional<std::string>& method,
                       const std::optional<double>& tolerance) {
   std::vector<verify::MethodVerification> results;
   CallLong(py::none(), [&](const LongCallHooks&) {
-    results = verify::VerifyRun(
-        {.run = run, .method = method, .tolerance = tolerance, .methods = methods});
+    results =
+        verify::VerifyRun({.run = run, .method = method, .tolerance = tolerance, .tools = tools});
   });
   py::list list;
   for (const verify::MethodVerification& result : results) {
@@ -73,14 +73,14 @@ py::list VerifyFolder(const Methods& methods, const std::string& run,
 
 }  // namespace
 
-void BindRun(py::module_& module, const ModuleMethods& methods) {
-  module.def("run", [methods](const std::string& path, const std::string& text,
-                              const std::string& out, bool overwrite, const py::object& progress) {
-    return RunInto(*methods, path, text, out, overwrite, progress);
+void BindRun(py::module_& module, const ModuleTools& tools) {
+  module.def("run", [tools](const std::string& path, const std::string& text,
+                            const std::string& out, bool overwrite, const py::object& progress) {
+    return RunInto(*tools, path, text, out, overwrite, progress);
   });
-  module.def("verify", [methods](const std::string& run, const std::optional<std::string>& method,
-                                 const std::optional<double>& tolerance) {
-    return VerifyFolder(*methods, run, method, tolerance);
+  module.def("verify", [tools](const std::string& run, const std::optional<std::string>& method,
+                               const std::optional<double>& tolerance) {
+    return VerifyFolder(*tools, run, method, tolerance);
   });
   module.def("method_folder", &MethodFolder);
 }

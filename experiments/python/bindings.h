@@ -4,21 +4,21 @@
 
 #include <memory>
 
-#include "smoothing/methods/methods.h"
+#include "experiments/config/toolbox.h"
 
 namespace halfstep::python {
 
-/// The methods that configs may name, with those that Python registered: the module's own.
-using ModuleMethods = std::shared_ptr<Methods>;
+/// What configs may name, with those that Python registered: the module's own.
+using ModuleTools = std::shared_ptr<Toolbox>;
 
 /// Each declares one concept in the module.
 void BindExceptions(pybind11::module_& module);
-void BindConfig(pybind11::module_& module, const ModuleMethods& methods);
+void BindConfig(pybind11::module_& module, const ModuleTools& tools);
 void BindPlace(pybind11::module_& module);
 void BindWalk(pybind11::module_& module);
-void BindExperiment(pybind11::module_& module, const ModuleMethods& methods);
+void BindExperiment(pybind11::module_& module, const ModuleTools& tools);
 void BindProgram(pybind11::module_& module);
-void BindRun(pybind11::module_& module, const ModuleMethods& methods);
-void BindExtension(pybind11::module_& module, const ModuleMethods& methods);
+void BindRun(pybind11::module_& module, const ModuleTools& tools);
+void BindExtension(pybind11::module_& module, const ModuleTools& tools);
 
 }  // namespace halfstep::python

@@ -8,13 +8,13 @@ PYBIND11_MODULE(_halfstep, module) {
   module.doc() = "The compiled part of the package halfstep. Use `import halfstep`.";
   module.attr("version") = halfstep::kVersion;
   module.attr("commit") = halfstep::kCommit;
-  const auto methods = std::make_shared<halfstep::Methods>(halfstep::Methods::Standard());
+  const auto tools = std::make_shared<halfstep::Toolbox>();
   BindExceptions(module);
-  BindConfig(module, methods);
+  BindConfig(module, tools);
   BindPlace(module);
   BindWalk(module);
-  BindExperiment(module, methods);
+  BindExperiment(module, tools);
   BindProgram(module);
-  BindRun(module, methods);
-  BindExtension(module, methods);
+  BindRun(module, tools);
+  BindExtension(module, tools);
 }

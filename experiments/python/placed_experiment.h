@@ -14,7 +14,7 @@ struct PlacedExperiment {
   /// unless null, is copied and takes the place of the one that the text names. Throws InputError,
   /// and std::invalid_argument for a plan that steps on a no-step area.
   PlacedExperiment(const std::string& file, const std::string& text, const Scene* scene,
-                   const Methods& methods);
+                   const Toolbox& tools);
 
   /// Throws std::invalid_argument when there is a goal in place of footsteps.
   std::shared_ptr<const WalkSetting> Setting() const;

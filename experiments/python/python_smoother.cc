@@ -13,9 +13,10 @@ namespace py = pybind11;
 namespace halfstep::python {
 
 SmoothingTask::SmoothingTask(const WalkProblem& problem, const MethodOptions& options,
-                             SmoothingMonitor* monitor)
+                             NamedOptions own, SmoothingMonitor* monitor)
     : setting_(std::make_shared<const WalkSetting>(WalkSetting{problem, {}})),
       options_(options),
+      own_(std::move(own)),
       monitor_(monitor) {}
 
 SmoothingMonitor& SmoothingTask::monitor() const {
@@ -40,14 +41,19 @@ namespace {
 
 class PythonSmoother : public Smoother {
  public:
-  PythonSmoother(std::string name, std::string meaning, const py::function& function)
-      : name_(std::move(name)), meaning_(std::move(meaning)), function_(function.inc_ref()) {}
+  PythonSmoother(std::string meaning, OptionGroup<NamedOptions> own, const py::function& function)
+      : meaning_(std::move(meaning)), own_(std::move(own)), function_(function.inc_ref()) {}
 
-  std::string name() const override { return name_; }
+  std::string name() const override { return own_.key; }
   std::string meaning() const override { return meaning_; }
-  std::vector<DeclaredGroup> groups() const override { return {OptimizerGroup()}; }
+  std::vector<DeclaredGroup> groups() const override {
+    if (own_.defaults.empty()) return {OptimizerGroup()};
+    return {own_, OptimizerGroup()};
+  }
   void DeclareRequest(Fields& fields, MethodOptions options) const override {
     DeclareSolverRequest(fields, options.Get(OptimizerGroup()));
+    if (own_.defaults.empty()) return;
+    fields.Group("own", {}, [&](Fields& f) { DeclareFields(f, &options.Edit(own_)); });
   }
 
   SmoothingResult Smooth(const WalkProblem& problem, const MethodOptions& options,
@@ -69,7 +75,7 @@ class PythonSmoother : public Smoother {
   std::string Call(const WalkProblem& problem, const MethodOptions& options,
                    SmoothingMonitor* monitor) const {
     const py::gil_scoped_acquire acquired;
-    const auto task = std::make_shared<SmoothingTask>(problem, options, monitor);
+    const auto task = std::make_shared<SmoothingTask>(problem, options, options.Get(own_), monitor);
     std::string failure;
     try {
       py::reinterpret_borrow<py::function>(function_)(task);
@@ -82,16 +88,18 @@ class PythonSmoother : public Smoother {
     return failure;
   }
 
-  std::string name_, meaning_;
+  std::string meaning_;
+  OptionGroup<NamedOptions> own_;  // by the name of the method
   py::handle function_;
 };
 
 }  // namespace
 
 std::unique_ptr<const Smoother> MakePythonSmoother(const std::string& name,
-                                                   const std::string& meaning,
+                                                   const std::string& meaning, NamedOptions options,
                                                    const py::function& function) {
-  return std::make_unique<PythonSmoother>(name, meaning, function);
+  OptionGroup<NamedOptions> own{name, "options of " + name, std::move(options)};
+  return std::make_unique<PythonSmoother>(meaning, std::move(own), function);
 }
 
 }  // namespace halfstep::python

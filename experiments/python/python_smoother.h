@@ -7,6 +7,7 @@
 #include <string>
 
 #include "experiments/python/walk_setting.h"
+#include "smoothing/methods/named_options.h"
 #include "smoothing/methods/smoother.h"
 
 namespace halfstep::python {
@@ -15,12 +16,13 @@ namespace halfstep::python {
 /// everything afterwards.
 class SmoothingTask {
  public:
-  /// `monitor` is borrowed until End().
-  SmoothingTask(const WalkProblem& problem, const MethodOptions& options,
+  /// `own`: the options that the function declared. `monitor` is borrowed until End().
+  SmoothingTask(const WalkProblem& problem, const MethodOptions& options, NamedOptions own,
                 SmoothingMonitor* monitor);
 
   const std::shared_ptr<const WalkSetting>& setting() const { return setting_; }
   const MethodOptions& options() const { return options_; }
+  const NamedOptions& own() const { return own_; }
   bool running() const { return monitor_ != nullptr; }
   /// Whether the method is to end: by Ctrl-C, its deadline or because it has ended.
   bool stopped() const { return monitor_ == nullptr || monitor_->stopped(); }
@@ -38,13 +40,14 @@ class SmoothingTask {
 
   std::shared_ptr<const WalkSetting> setting_;
   MethodOptions options_;
+  NamedOptions own_;
   SmoothingMonitor* monitor_;
 };
 
-/// A smoother that is a Python function of a SmoothingTask. `function` is kept for ever: methods
-/// are never removed. Needs the GIL.
+/// A smoother that is a Python function of a SmoothingTask, with options of its own under its name.
+/// `function` is kept for ever: methods are never removed. Needs the GIL.
 std::unique_ptr<const Smoother> MakePythonSmoother(const std::string& name,
-                                                   const std::string& meaning,
+                                                   const std::string& meaning, NamedOptions options,
                                                    const pybind11::function& function);
 
 }  // namespace halfstep::python

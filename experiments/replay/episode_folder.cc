@@ -21,8 +21,8 @@ double WaitedOf(const nlohmann::json& manifest, const std::filesystem::path& pat
 
 }  // namespace
 
-RecordedEpisode ReadEpisode(const std::filesystem::path& folder, const Methods& methods) {
-  LiveConfig config = LoadLiveConfig((folder / "config.yaml").string(), {}, methods);
+RecordedEpisode ReadEpisode(const std::filesystem::path& folder, const Toolbox& tools) {
+  LiveConfig config = LoadLiveConfig((folder / "config.yaml").string(), {}, tools);
   WholeRobot robot = LoadWholeRobot(RobotPath(config.experiment).string());
   const std::optional<std::filesystem::path> scene = ScenePath(config.experiment);
   if (config.live.sensing.source == "client") {

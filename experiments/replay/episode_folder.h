@@ -19,7 +19,6 @@ struct RecordedEpisode {
 
 /// Reads config.yaml with its robot and scene, and trajectory.csv. Throws InputError for what is
 /// missing or wrong, such as a script that names an obstacle that the scene does not have.
-RecordedEpisode ReadEpisode(const std::filesystem::path& folder,
-                            const Methods& methods = Methods::Standard());
+RecordedEpisode ReadEpisode(const std::filesystem::path& folder, const Toolbox& tools = {});
 
 }  // namespace halfstep::replay

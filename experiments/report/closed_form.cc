@@ -1,13 +1,11 @@
 #include "experiments/report/closed_form.h"
 
 #include <string>
-#include <vector>
 
-#include "experiments/tables/csv_reader.h"
+#include "experiments/tables/given_walk_file.h"
 #include "experiments/tables/parameter_tables.h"
 #include "wpg/files/number_text.h"
 #include "wpg/motion/lipm.h"
-#include "wpg/nth.h"
 #include "wpg/robot/gravity.h"
 
 namespace halfstep {
@@ -40,7 +38,7 @@ json HalfStepJson(const PlacedHalfStep& placed) {
 
 // What half_steps.csv has of the families: where a walk's values stand among its parameters, a
 // number for each step or half-step, and the column, which names the number of half-steps, too.
-json FamiliesJson() {
+json FamilyColumnsJson() {
   json families = json::array();
   for (const ParameterFamily family : FamiliesOfHalfSteps(HalfStepsExtent::kFootsteps)) {
     const ParameterFamilyTraits& traits = Traits(family);
@@ -59,34 +57,16 @@ json ClosedFormJson(const RobotModel& robot, const HalfStepSequence& sequence) {
   for (const PlacedHalfStep& placed : sequence.half_steps) {
     half_steps.push_back(HalfStepJson(placed));
   }
-  return {{"half_steps", std::move(half_steps)},  {"families", FamiliesJson()},
+  return {{"half_steps", std::move(half_steps)},  {"families", FamilyColumnsJson()},
           {"com_height_m", lipm->com_height()},   {"gravity_m_s2", kGravity},
           {"waist_height_m", robot.waist_height}, {"com_ahead_m", robot.com_x_B}};
 }
 
-json ParametersJson(const fs::path& folder, int size) {
-  const CsvTable half_steps = ReadCsv((folder / "half_steps.csv").string());
-  const size_t count = static_cast<size_t>(size);
-  if (half_steps.rows.size() != count || count % 2 != 0) return nullptr;
-  std::vector<double> overlaps(count - 1, 0.0);  // those of `raw`, which has no table
-  if (const fs::path path = folder / "overlaps.csv"; fs::exists(path)) {
-    overlaps =
-        ReadCsv(path.string()).Numbers(std::string(Traits(ParameterFamily::kOverlap).column));
-    if (overlaps.size() != count - 1) return nullptr;
-  }
-  json parameters;
-  parameters[PluralOf(Traits(ParameterFamily::kOverlap))] = overlaps;
-  for (const ParameterFamily family : FamiliesOfHalfSteps(HalfStepsExtent::kFootsteps)) {
-    const ParameterFamilyTraits& traits = Traits(family);
-    const std::string column(traits.column);
-    if (traits.of_form && !half_steps.Has(column)) continue;
-    const std::vector<double> rows = half_steps.Numbers(column);
-    std::vector<double> values;
-    for (int i = 0; i < size; ++i) {
-      if (traits.index_at(i) < static_cast<int>(values.size())) continue;
-      values.push_back(Nth(rows, i));
-    }
-    parameters[PluralOf(traits)] = values;
+json ParametersJson(const fs::path& folder, const HalfStepSequence& sequence) {
+  const HomotopyParameters walk = ReadParameters(folder, sequence);
+  json parameters = {{PluralOf(Traits(ParameterFamily::kOverlap)), walk.overlaps}};
+  for (const ParameterFamily family : FamiliesOfHalfSteps(ExtentOf(sequence, walk))) {
+    parameters[PluralOf(Traits(family))] = walk.of(family);
   }
   return parameters;
 }

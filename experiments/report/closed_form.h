@@ -16,8 +16,8 @@ nlohmann::json ClosedFormJson(const RobotModel& robot, const HalfStepSequence& s
 
 /// The homotopy parameters of a method's folder, exactly as its half_steps.csv and overlaps.csv
 /// have them, by PluralOf() of their families; those of forms and footsteps where the walk has its
-/// own. Null where they are not those of `size` half-steps. Throws InputError for tables that
-/// cannot be read.
-nlohmann::json ParametersJson(const std::filesystem::path& folder, int size);
+/// own. Throws InputError as ReadParameters.
+nlohmann::json ParametersJson(const std::filesystem::path& folder,
+                              const HalfStepSequence& sequence);
 
 }  // namespace halfstep

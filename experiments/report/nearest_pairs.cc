@@ -18,7 +18,7 @@ namespace {
 using nlohmann::json;
 
 struct NearPair {
-  double margin = MarginLimits{}.clearance_horizon;  // [m]
+  double margin = MarginLimits{}.clearance_cap;  // [m]
   std::array<std::string, 2> names;
   Separation separation;
 };

@@ -6,8 +6,8 @@ import { themedAxis } from "./plots.js";
 import { fileName, plotSvg, save } from "./saving.js";
 
 const height = 260; // [px]
-const horizon = 0.2999; // [m] margins beyond are not told apart
-const centimetres = (value) => (typeof value === "number" && value < horizon ? 100 * value : null);
+const cap = 0.2999; // [m] margins beyond are not told apart
+const centimetres = (value) => (typeof value === "number" && value < cap ? 100 * value : null);
 const curves = [
   ["ZMP inside the polygon", "zmp_m", palette.zmp],
   ["ZMP of the whole robot", "zmp_robot_m", palette.left],

@@ -6,7 +6,7 @@ import { element, lineKey } from "./elements.js";
 const farthest = 1000; // factors beyond are not drawn
 
 /**
- * The staircase of each method, [[factor, share], …]: `values[m][case]` is the method's effort, null
+ * The staircase of each method, [[factor, share], …]: `values[m][case]` is the method's work, null
  * where it failed.
  */
 export function profileOf(values, cases) {

@@ -197,10 +197,10 @@ json ProfilesJson(const Comparison& comparison) {
   return curves;
 }
 
-json CaseOf(const ComparedCase& one, double spacing, const Methods& methods, json* report) {
+json CaseOf(const ComparedCase& one, double spacing, const Toolbox& tools, json* report) {
   const fs::path run(one.methods.front().record.run);
   try {
-    const Place place = PlaceOfRun(run, methods);
+    const Place place = PlaceOfRun(run, tools);
     std::vector<json> walks;
     for (const ComparedMethod& method : one.methods) {
       walks.push_back(DrawnWalk(place.robot, place.scene, FolderOf(method.record), spacing));
@@ -214,28 +214,28 @@ json CaseOf(const ComparedCase& one, double spacing, const Methods& methods, jso
 
 // Beside a run's walks what the page needs to move their parameters by itself.
 void AddClosedForm(const RobotModel& robot, const Scene& scene, const fs::path& folder,
-                   const Methods& methods, json* one) {
+                   const Toolbox& tools, json* one) {
   const Experiment experiment =
-      Prepare(LoadConfig((folder / "config.yaml").string(), {}, methods), Place{robot, scene});
+      Prepare(LoadConfig((folder / "config.yaml").string(), {}, tools), Place{robot, scene});
   (*one)["closed_form"] = ClosedFormJson(experiment.robot, experiment.sequence);
   if ((*one)["closed_form"].is_null()) return;
   for (json& walk : (*one)["walks"]) {
     const auto method = walk["summary"].at("method").get<std::string>();
-    walk["parameters"] = ParametersJson(folder / MethodFolder(method), experiment.sequence.size());
+    walk["parameters"] = ParametersJson(folder / MethodFolder(method), experiment.sequence);
   }
 }
 
 }  // namespace
 
-Place PlaceOfRun(const fs::path& run, const Methods& methods) {
-  Place place = LoadPlace(LoadConfig((run / "config.yaml").string(), {}, methods));
+Place PlaceOfRun(const fs::path& run, const Toolbox& tools) {
+  Place place = LoadPlace(LoadConfig((run / "config.yaml").string(), {}, tools));
   CheckSame(place.robot.files, "robot", run);
   CheckSame(place.scene.files, "scene", run);
   return place;
 }
 
 std::string RunReport(const RobotModel& robot, const Scene& scene, const fs::path& folder,
-                      const Methods& methods) {
+                      const Toolbox& tools) {
   const json manifest = ReadJsonObject(folder / "manifest.json");
   json report = EmptyReport("run", methods);
   for (const char* key : {"name", "version", "commit", "objective", "acceptance"}) {
@@ -256,7 +256,7 @@ std::string RunReport(const RobotModel& robot, const Scene& scene, const fs::pat
     walk["summary"] = WithOwn(row, folder / "summary.csv");
     one["walks"].push_back(std::move(walk));
   }
-  AddClosedForm(robot, scene, folder, methods, &one);
+  AddClosedForm(robot, scene, folder, tools, &one);
   const fs::path volumes = folder / "swept_volumes.json";
   if (fs::exists(volumes)) one["swept_volumes"] = ReadJsonObject(volumes);
   const fs::path infeasible = folder / "infeasible.json";
@@ -266,12 +266,11 @@ std::string RunReport(const RobotModel& robot, const Scene& scene, const fs::pat
 }
 
 void WriteReport(const RobotModel& robot, const Scene& scene, RunFolder* folder,
-                 const Methods& methods) {
-  if (HasReport())
-    folder->Write("report.html", RunReport(robot, scene, folder->staging(), methods));
+                 const Toolbox& tools) {
+  if (HasReport()) folder->Write("report.html", RunReport(robot, scene, folder->staging(), tools));
 }
 
-std::string ComparisonReport(const Comparison& comparison, const Methods& methods) {
+std::string ComparisonReport(const Comparison& comparison, const Toolbox& tools) {
   double total = 0.0;
   for (const ComparedCase& one : comparison.cases) {
     for (const ComparedMethod& method : one.methods) total += method.record.duration;
@@ -279,7 +278,7 @@ std::string ComparisonReport(const Comparison& comparison, const Methods& method
   json report = EmptyReport("comparison", methods);
   report["profiles"] = ProfilesJson(comparison);
   for (const ComparedCase& one : comparison.cases) {
-    report["cases"].push_back(CaseOf(one, SpacingFor(total), methods, &report));
+    report["cases"].push_back(CaseOf(one, SpacingFor(total), tools, &report));
   }
   return ReportPage(report);
 }

@@ -11,26 +11,24 @@
 
 namespace halfstep {
 
-/// report.html of a run whose config may name `methods`, as for all that follows: one page that
-/// shows its walks, needs no other file and no network. `folder` holds the run's files; robot and
-/// scene are those of the run. The same files give the same bytes. Throws InputError for files that
-/// are missing or damaged. Precondition: HasReport().
+/// report.html of a run whose config may name what `tools` hold, as for all that follows: one page
+/// that shows its walks, needs no other file and no network. `folder` holds the run's files; robot
+/// and scene are those of the run. The same files give the same bytes. Throws InputError for files
+/// that are missing or damaged. Precondition: HasReport().
 std::string RunReport(const RobotModel& robot, const Scene& scene,
-                      const std::filesystem::path& folder,
-                      const Methods& methods = Methods::Standard());
+                      const std::filesystem::path& folder, const Toolbox& tools = {});
 
 /// Writes it as report.html into a folder that has all its other files; does nothing without
 /// HasReport().
 void WriteReport(const RobotModel& robot, const Scene& scene, RunFolder* folder,
-                 const Methods& methods = Methods::Standard());
+                 const Toolbox& tools = {});
 
 /// The robot and the scene of a run. Throws InputError when they cannot be read, or when their
 /// files are not those that the run's certificate names by their hash.
-Place PlaceOfRun(const std::filesystem::path& run, const Methods& methods = Methods::Standard());
+Place PlaceOfRun(const std::filesystem::path& run, const Toolbox& tools = {});
 
 /// report.html of a comparison: all walks of all its scenarios. A scenario that can no longer be
 /// drawn (robot, scene or trajectories are gone or changed) keeps its tables; the page says why.
-std::string ComparisonReport(const Comparison& comparison,
-                             const Methods& methods = Methods::Standard());
+std::string ComparisonReport(const Comparison& comparison, const Toolbox& tools = {});
 
 }  // namespace halfstep

@@ -101,17 +101,15 @@ void ExperimentRun::ReadGiven() {
 void ExperimentRun::Repair(const RunHooks& hooks) {
   const PlanRepair repair =
       RepairPlan(experiment_->sequence, ProblemOf(*experiment_).test(), {}, hooks.stop_step);
-  for (const RepairedStep& step : repair.steps) {
-    FootstepConfig& footstep = Nth(config_.footsteps, step.step);
-    const double duration = footstep.duration.value_or(config_.half_step.duration);
-    const double height = footstep.via_height.value_or(config_.half_step.via_height);
-    repaired_.push_back(
-        Formatted("footstep %d was repaired: %.3f s in place of %.3f s, %.3f m "
-                  "high in place of %.3f m",
-                  step.step + 1, step.duration, duration, step.via_height, height));
-    footstep.duration = step.duration;
-    footstep.via_height = step.via_height;
+  for (const PlanChange& change : repair.steps) {
+    const FootstepConfig& footstep = Nth(config_.footsteps, *change.step);
+    repaired_.push_back(Formatted(
+        "footstep %d was repaired: %.3f s in place of %.3f s, %.3f m "
+        "high in place of %.3f m",
+        *change.step + 1, *change.duration, footstep.duration.value_or(config_.half_step.duration),
+        *change.via_height, footstep.via_height.value_or(config_.half_step.via_height)));
   }
+  config_ = Changed(std::move(config_), repair.steps);
   for (const std::string& failure : repair.failures) repaired_.push_back(failure);
   if (repair.steps.empty()) return;
   experiment_ = Prepare(config_, {experiment_->robot, experiment_->scene});

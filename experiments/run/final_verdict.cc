@@ -13,7 +13,7 @@ namespace {
 Feasibility Judgement(const WalkProblem& problem, const CertifiedFeasibility& certifier,
                       const CertifiedWalk& certified, const SuperposedWalk& walk,
                       MarginEvaluator::Scratch* scratch) {
-  const TimeWindow all{0.0, walk.duration()};
+  const TimeSpan all{0.0, walk.duration()};
   const StopBranches branches = problem.test().stop_branches();
   if (certified.answer.verdict != Verdict::kFeasible || branches == StopBranches::kNone) {
     return certified.answer;

@@ -16,7 +16,7 @@ struct InfeasibleWalk {
   std::string method;               ///< "raw", the planned motion, or "given"
   std::vector<std::string> inputs;  ///< LookAtFootsteps: what the config may have wrong
   MissedDemands missed;             ///< of the walk
-  std::vector<std::string> help;    ///< what was tried, and how it went: PlanRemedies; of `raw`
+  std::vector<std::string> help;    ///< what was tried, and how it went: FindRemedies; of `raw`
 };
 
 /// Explains the planned motion of an experiment, which misses `missed`. Trying remedies ends with

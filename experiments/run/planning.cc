@@ -6,7 +6,7 @@
 #include "experiments/run/missed_demands_text.h"
 #include "experiments/run/plan_inputs.h"
 #include "experiments/tables/not_covered_json.h"
-#include "planner/search/planner_registry.h"
+#include "planner/search/planners.h"
 #include "planner/swept/obstacle_places.h"
 #include "planner/swept/swept_volume_query.h"
 #include "smoothing/margins/not_covered_by.h"
@@ -232,8 +232,8 @@ PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
   request.clock = SteadySeconds;
   request.stop = StopOf(config.planner, hooks);
   std::mt19937_64 random(static_cast<std::uint64_t>(config.seed));
-  walk.plan =
-      MakePlanner(config.planner.name, place.scene, config.planner.options)->Plan(request, random);
+  walk.plan = config.planner.known.Make(config.planner.name, place.scene, config.planner.options)
+                  ->Plan(request, random);
   if (walk.plan.status == PlanStatus::kSolved) {
     walk.config = WithFootsteps(config, request.start, walk.plan.footsteps, place);
   } else {

@@ -68,7 +68,7 @@ BakedHalfSteps BakeHalfSteps(const RobotModel& robot, const ExperimentConfig& co
 /// A plan and what it was made with.
 struct PlannedWalk {
   ExperimentConfig config;  ///< with footsteps and start in place of the goal; when solved
-  PlanResult plan;          ///< status, footsteps and effort
+  PlanResult plan;          ///< status, footsteps and work
   /// Without a plan: what start and goal may have wrong (LookAtGoal), which `plan.sentence` begins
   /// with.
   std::vector<std::string> inputs = {};

@@ -117,9 +117,8 @@ std::string ClearanceCell(const MarginEvaluator& evaluator, const MethodRun& run
     return Formatted("%10s", "undecided");
   }
   if (!std::isfinite(clearance.value)) return Formatted("%10s", "-");
-  return clearance.other < 0
-             ? Formatted("   > %2.0f cm", 100.0 * evaluator.limits().clearance_horizon)
-             : Formatted("%7.1f cm", 100.0 * clearance.value);
+  return clearance.other < 0 ? Formatted("   > %2.0f cm", 100.0 * evaluator.limits().clearance_cap)
+                             : Formatted("%7.1f cm", 100.0 * clearance.value);
 }
 
 std::string WorstCell(const MarginEvaluator& evaluator, const MethodRun& run) {

@@ -53,7 +53,7 @@ void Publish(const SweepFolder& folder, const SweepCase& one, const ExperimentCo
   WriteCsv("timings", tables.timings, &place);
   WriteCsv("runs", tables.runs, &place);
   if (kept != nullptr) {
-    WriteReport(kept->experiment().robot, kept->experiment().scene, &place, folder.sweep().methods);
+    WriteReport(kept->experiment().robot, kept->experiment().scene, &place, folder.sweep().tools);
     CompleteManifest(kept->experiment().robot, kept->experiment().scene, &place);
   }
   try {

@@ -186,7 +186,7 @@ ExperimentConfig LoadCase(const SweepConfig& config, const SweepCase& one) {
       overrides.push_back(set);
     }
   }
-  return LoadConfig(path.string(), overrides, config.methods);
+  return LoadConfig(path.string(), overrides, config.tools);
 }
 
 void DeclareFields(Fields& fields, SweepConfig* c) {
@@ -254,16 +254,16 @@ std::string OverrideText(const SweepCase& one) {
 }
 
 SweepConfig LoadSweep(const std::string& path, const std::vector<YamlOverride>& overrides,
-                      bool check, Methods methods) {
-  return ParseSweep(path, ReadYamlFile(path), overrides, check, std::move(methods));
+                      bool check, Toolbox tools) {
+  return ParseSweep(path, ReadYamlFile(path), overrides, check, std::move(tools));
 }
 
 SweepConfig ParseSweep(const std::string& path, const std::string& text,
-                       const std::vector<YamlOverride>& overrides, bool check, Methods methods) {
+                       const std::vector<YamlOverride>& overrides, bool check, Toolbox tools) {
   const std::filesystem::path file(path);
   SweepConfig config;
   config.name = file.stem().string();
-  config.methods = std::move(methods);
+  config.tools = std::move(tools);
   ReadYamlText(text, path, file.parent_path().string(), overrides, [&](Fields& fields) {
     DeclareFields(fields, &config);
     config.directory = fields.directory();

@@ -28,12 +28,12 @@ struct SweepAxis {
 
 /// A sweep as its YAML file says it (experiments/README.md).
 struct SweepConfig {
-  std::string name;                       ///< default: the file's stem
-  std::string config;                     ///< path of the base config, relative to the file
-  std::vector<SweepAxis> vary;            ///< every combination is a case
-  std::string keep = "summary";           ///< or "all"
-  std::string directory;                  ///< of the file
-  Methods methods = Methods::Standard();  ///< that its configs may name
+  std::string name;              ///< default: the file's stem
+  std::string config;            ///< path of the base config, relative to the file
+  std::vector<SweepAxis> vary;   ///< every combination is a case
+  std::string keep = "summary";  ///< or "all"
+  std::string directory;         ///< of the file
+  Toolbox tools;                 ///< that its configs may name
   /// Whether a case runs `reference/lipm`, so that runs.csv has gap_lipm.
   bool with_bound = false;
 
@@ -73,10 +73,9 @@ std::string OverrideText(const SweepCase& one);
 /// Reads a sweep file strictly, ranges turned into values. With `check` the config of every case is
 /// read too, of more than 5000 those of 5000 that are spread evenly. Throws InputError.
 SweepConfig LoadSweep(const std::string& path, const std::vector<YamlOverride>& overrides,
-                      bool check, Methods methods = Methods::Standard());
+                      bool check, Toolbox tools = {});
 /// The same for a sweep file's text.
 SweepConfig ParseSweep(const std::string& path, const std::string& text,
-                       const std::vector<YamlOverride>& overrides, bool check,
-                       Methods methods = Methods::Standard());
+                       const std::vector<YamlOverride>& overrides, bool check, Toolbox tools = {});
 
 }  // namespace halfstep

@@ -15,7 +15,8 @@ HalfStepsExtent ExtentOf(ParameterFamily family) {
   return traits.of_form ? HalfStepsExtent::kForms : HalfStepsExtent::kTimes;
 }
 
-// As far as values are not the plan's.
+}  // namespace
+
 HalfStepsExtent ExtentOf(const HalfStepSequence& sequence, const HomotopyParameters& parameters) {
   const HomotopyParameters planned = PlannedMotion(sequence);
   HalfStepsExtent extent = HalfStepsExtent::kTimes;
@@ -24,8 +25,6 @@ HalfStepsExtent ExtentOf(const HalfStepSequence& sequence, const HomotopyParamet
   }
   return extent;
 }
-
-}  // namespace
 
 std::vector<ParameterFamily> FamiliesOfHalfSteps(HalfStepsExtent extent) {
   std::vector<ParameterFamily> families;

@@ -12,12 +12,13 @@ CsvColumn ColumnOf(ParameterFamily family);
 /// Which columns half_steps.csv has: those that it always has; with those of forms; with those of
 /// the moves of footsteps, too.
 enum class HalfStepsExtent { kTimes, kForms, kFootsteps };
+/// Which half_steps.csv of a walk has: as far as values are not the plan's.
+HalfStepsExtent ExtentOf(const HalfStepSequence& sequence, const HomotopyParameters& parameters);
 /// The families whose values stand in half_steps.csv, in the order of their columns.
 std::vector<ParameterFamily> FamiliesOfHalfSteps(HalfStepsExtent extent);
 /// The columns of half_steps.csv.
 CsvColumns HalfStepsColumns(HalfStepsExtent extent);
-/// half_steps.csv: one row a half-step, with where the homotopy ended. The columns of forms and
-/// footsteps are there where one of their values is not the plan's.
+/// half_steps.csv: one row a half-step, with where the homotopy ended.
 CsvFile HalfStepsCsv(const HalfStepSequence& sequence, const HomotopyParameters& parameters);
 
 }  // namespace halfstep

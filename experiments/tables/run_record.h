@@ -33,7 +33,7 @@ struct MethodRecord {
   std::optional<double> gap_to_reference;
   std::optional<double>
       gap_lipm;  ///< above the lower bound; none where summary.csv does not say it
-  /// Effort: instants at which margins were evaluated; queries of distances.
+  /// Work: instants at which margins were evaluated; queries of distances.
   double instants = 0.0, collision_queries = 0.0;
   double wall = 0.0;                        ///< [s]
   std::vector<IncumbentRecord> incumbents;  ///< in the order of time

@@ -194,7 +194,7 @@ class Claims {
     return distances_.FromAll(a, at, t, enough);
   }
 
-  // Margins beyond a horizon are cut off, so a smaller one than the distance is no fault.
+  // Margins beyond a cap are cut off, so a smaller one than the distance is no fault.
   std::string FaultOfDistance(const ClaimRow& row, ClaimSubject subject) {
     const std::array<double, 5> instants = Instants(row);
     const Placement middle = PlaceRobot(robot_, walk_.Row(instants[0]));

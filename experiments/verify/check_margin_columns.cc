@@ -12,7 +12,7 @@ namespace {
 
 // Distances beyond this are not told apart, or beyond twice what is demanded [m].
 // Source: smoothing/README.md, "Margins".
-constexpr double kHorizon = 0.3;
+constexpr double kCap = 0.3;
 
 double JointSpeedMarginAt(const DescribedWalk& walk, double t, double scale) {
   const std::array<Vector6d, 2> speeds = walk.JointSpeeds(t);
@@ -41,7 +41,7 @@ bool Same(double found, double stated, double tolerance) {
 }  // namespace
 
 std::array<double, kNumMarginColumns> MarginsAt(const DescribedWalk& walk, const PlayedRow& row,
-                                                const CertificateText& certificate, double horizon,
+                                                const CertificateText& certificate, double cap,
                                                 Distances* distances) {
   double joint = kNoLimit;
   for (int side = 0; side < 2; ++side) {
@@ -53,8 +53,8 @@ std::array<double, kNumMarginColumns> MarginsAt(const DescribedWalk& walk, const
           joint,
           JointSpeedMarginAt(walk, row.t, certificate.joint_speed_scale),
           FootSpeedMarginAt(walk, row, certificate.foot_speed),
-          distances->NearestObstacle(at, row.t, horizon),
-          distances->NearestPair(at, horizon),
+          distances->NearestObstacle(at, row.t, cap),
+          distances->NearestPair(at, cap),
           dynamics.zmp,
           dynamics.LeastTorqueMargin(walk.robot()),
           distances->scene().friction - dynamics.friction,
@@ -68,14 +68,14 @@ void CheckMarginColumns(const std::vector<PlayedRow>& rows, const DescribedWalk&
   const std::array<double, kNumMarginColumns> tolerances = {
       near.column, near.column,   near.joint_speed, near.column,   near.slab,
       near.slab,   near.momentum, near.torque,      near.friction, near.acceleration};
-  const double horizon = std::max(
-      {kHorizon, 2 * certificate.demanded[kClearance], 2 * certificate.demanded[kSelfClearance]});
+  const double cap = std::max(
+      {kCap, 2 * certificate.demanded[kClearance], 2 * certificate.demanded[kSelfClearance]});
   const size_t columns = NumMarginColumns(walk.robot());
   std::array<Faults, kNumMarginColumns> faults;
   for (size_t i = 0; i < rows.size(); ++i) {
     // Whatever is farther than both columns say need not be asked.
     const double stated = std::max(rows[i].margins[4], rows[i].margins[5]);
-    const double enough = stated < horizon ? std::min(horizon, stated + 2 * near.slab) : horizon;
+    const double enough = stated < cap ? std::min(cap, stated + 2 * near.slab) : cap;
     const auto found = MarginsAt(walk, rows[i], certificate, enough, distances);
     for (size_t k = 0; k < columns; ++k) {
       if (Same(found[k], rows[i].margins[k], tolerances[k])) continue;

@@ -11,9 +11,9 @@ namespace halfstep::verify {
 
 /// Margins of a walk at one instant by verify's own formulas: ZMP, joint, joint speed, foot speed,
 /// clearance and self clearance, as in the last six columns of trajectory.csv. Distances are cut
-/// off at `horizon` [m].
+/// off at `cap` [m].
 std::array<double, kNumMarginColumns> MarginsAt(const DescribedWalk& walk, const PlayedRow& row,
-                                                const CertificateText& certificate, double horizon,
+                                                const CertificateText& certificate, double cap,
                                                 Distances* distances);
 
 /// Whether the margin columns of trajectory.csv are what they say, within Tolerances: of a column,

@@ -101,14 +101,14 @@ Distances::Result Distances::OfPair(size_t a, size_t b, const Placement& at, dou
   return {Solid::Distance(bodies_[a], X_Ba, bodies_[b], X_Bb), true};
 }
 
-double Distances::NearestObstacle(const Placement& at, double t, double horizon) {
-  double least = horizon;
+double Distances::NearestObstacle(const Placement& at, double t, double cap) {
+  double least = cap;
   for (size_t b = 0; b < bodies_.size(); ++b) least = std::min(least, FromAll(b, at, t, least));
   return least;
 }
 
-double Distances::NearestPair(const Placement& at, double horizon) {
-  double least = horizon;
+double Distances::NearestPair(const Placement& at, double cap) {
+  double least = cap;
   for (const auto& [a, b] : robot_.self_pairs) {
     const Result pair = OfPair(static_cast<size_t>(a), static_cast<size_t>(b), at, least);
     least = std::min(least, pair.distance);

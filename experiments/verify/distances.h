@@ -53,9 +53,9 @@ class Distances {
   double ObstacleChange(size_t obstacle, double from, double to) const;
 
   /// Smallest distance of any body from any obstacle at t, and of any watched pair of bodies; at
-  /// most `horizon` [m].
-  double NearestObstacle(const Placement& at, double t, double horizon);
-  double NearestPair(const Placement& at, double horizon);  ///< of any watched pair of bodies
+  /// most `cap` [m].
+  double NearestObstacle(const Placement& at, double t, double cap);
+  double NearestPair(const Placement& at, double cap);  ///< of any watched pair of bodies
 
   /// "RLEG_LINK5 - bar", "LLEG_LINK5 - RLEG_LINK5".
   std::string NameOfObstaclePair(size_t body, size_t obstacle) const;

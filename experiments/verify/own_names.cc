@@ -50,26 +50,19 @@ void FindMethods(const YamlNode& root, const std::vector<std::string>& known, Ow
   own->overrides.push_back({"smoothing.methods", "[" + rest + "]"});
 }
 
-// Leaves out the numbers of a group for which `is_own` holds; calls it once for each.
+// Leaves out the keys of a group for which `is_own` holds; calls it once for each.
 template <typename IsOwn>
 void LeaveOut(const YamlNode& root, std::initializer_list<const char*> keys, OwnNames* own,
               const IsOwn& is_own) {
   const YamlNode* group = At(root, keys);
   if (group == nullptr || group->kind != Kind::kMap) return;
-  std::string rest, path;
-  bool found = false;
+  std::string path;
+  for (const char* key : keys) path += std::string(key) + ".";
   for (const YamlNode& item : group->items) {
-    if (item.kind != Kind::kScalar) return;
-    if (is_own(item)) {
-      found = true;
-    } else {
-      rest += (rest.empty() ? "" : ", ") + Quoted(item.key) + ": " +
-              (item.quoted ? Quoted(item.text) : item.text);
+    if (item.kind == Kind::kScalar && is_own(item)) {
+      own->overrides.push_back({.key = path + item.key, .value = "", .leave_out = true});
     }
   }
-  if (!found) return;
-  for (const char* key : keys) path += (path.empty() ? "" : ".") + std::string(key);
-  own->overrides.push_back({path, "{" + rest + "}"});
 }
 
 // Options of methods, of which one unknown leaves out all: none changes what is read here.
@@ -80,12 +73,14 @@ void FindOwnOptions(const YamlNode& root, const std::vector<std::string>& known,
   for (const YamlNode& item : group->items) {
     if (!Has(known, item.key)) own->told.push_back("the options " + item.key);
   }
-  if (own->told.size() > told) own->overrides.push_back({"smoothing.own", "{}"});
+  if (own->told.size() > told) {
+    own->overrides.push_back({.key = "smoothing.own", .value = "", .leave_out = true});
+  }
 }
 
 }  // namespace
 
-OwnNames FindOwnNames(const std::string& path, const std::string& text, const Methods& methods) {
+OwnNames FindOwnNames(const std::string& path, const std::string& text, const Toolbox& tools) {
   OwnNames own;
   YamlNode root;
   try {
@@ -94,7 +89,7 @@ OwnNames FindOwnNames(const std::string& path, const std::string& text, const Me
   } catch (const InputError&) {
     return own;
   }
-  const KnownNames known = NamesOfConfigs(methods);
+  const KnownNames known = NamesOfConfigs(tools);
   FindMethods(root, known.methods, &own);
   FindOwnOptions(root, known.own_options, &own);
   const YamlNode* planner = At(root, {"planner", "name"});

@@ -20,9 +20,8 @@ struct OwnNames {
       own_margin;  ///< demanded of the family `own`; none: not known, or known here
 };
 
-/// Looks for them in the text of a config.yaml; `methods`: those of this program. What else is
+/// Looks for them in the text of a config.yaml; `tools`: those of this program. What else is
 /// wrong with it is LoadConfig's to say.
-OwnNames FindOwnNames(const std::string& path, const std::string& text,
-                      const Methods& methods = Methods::Standard());
+OwnNames FindOwnNames(const std::string& path, const std::string& text, const Toolbox& tools = {});
 
 }  // namespace halfstep::verify

@@ -133,7 +133,7 @@ std::vector<NotCovered> VerifyEpisode(const VerifyOptions& options,
   const auto walks = static_cast<size_t>(manifest.walks);
   CheckListedFiles(options.run, FilesOf(folder, walks), manifest.files, findings);
   const std::string config_path = (folder / "config.yaml").string();
-  const LiveConfig config = LoadLiveConfig(config_path, GivenFiles(options), options.methods);
+  const LiveConfig config = LoadLiveConfig(config_path, GivenFiles(options), options.tools);
   const Place place = PlaceOf(options, config, manifest);
   CheckEpisodeInputs(manifest, config, ReadBytes(config_path), place, findings);
   if (NamesOfConfigs(options.methods).has_own_margins) {

@@ -51,12 +51,12 @@ void CheckHash(const char* what, const std::string& bytes, const std::string& st
 ExperimentConfig ReadConfig(const VerifyOptions& options, const std::string& path,
                             const std::string& text, const InputSearch& robot,
                             const InputSearch& scene, Findings* findings) {
-  const OwnNames own = FindOwnNames(path, text, options.methods);
+  const OwnNames own = FindOwnNames(path, text, options.tools);
   std::vector<YamlOverride> overrides = GivenFiles(options);
   overrides.insert(overrides.end(), own.overrides.begin(), own.overrides.end());
   ExperimentConfig config;
   try {
-    config = ParseConfig(path, text, overrides, options.methods);
+    config = ParseConfig(path, text, overrides, options.tools);
   } catch (const InputError& error) {
     std::vector<std::string> complaints = error.complaints();
     for (const InputSearch* search : {&robot, &scene}) {
@@ -69,7 +69,7 @@ ExperimentConfig ReadConfig(const VerifyOptions& options, const std::string& pat
     if (options.robot || complaints.size() > error.complaints().size())
       throw InputError(complaints);
     overrides.push_back(NamedInstead("robot", robot.places.front().string()));
-    config = ParseConfig(path, text, overrides, options.methods);
+    config = ParseConfig(path, text, overrides, options.tools);
   }
   if (own.methods) config.smoothing.methods = *own.methods;
   if (!NamesOfConfigs(options.methods).has_own_margins) {

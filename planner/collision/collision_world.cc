@@ -92,12 +92,12 @@ const CollisionShape& CollisionWorld::ShapeOf(int obstacle) const {
 
 CollisionWorld::Nearest CollisionWorld::FindNearest(const CollisionShape& body,
                                                     const Eigen::Isometry3d& X_WB, double t,
-                                                    double horizon, double half_width) const {
+                                                    double cap, double half_width) const {
   CheckFinite(X_WB);
   CheckTime(t);
   Nearest nearest;
-  nearest.margin = nearest.separation.distance = horizon;
-  double least = horizon;  // margin at the worst time
+  nearest.margin = nearest.separation.distance = cap;
+  double least = cap;  // margin at the worst time
   const Eigen::Vector3d center_W = X_WB * body.center();
   // Lower bounds of that, the least first: of an obstacle, or of those of a node of the tree.
   using Candidate =

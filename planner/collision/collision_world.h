@@ -28,10 +28,10 @@ class CollisionWorld {
   };
   /// The obstacle that is nearest to a body.
   struct Nearest {
-    int obstacle = -1;  ///< index into the scene, −1: none within the horizon.
+    int obstacle = -1;  ///< index into the scene, −1: none within the cap.
     /// From the obstacle, where it is said to be, to the body.
     Separation separation;
-    /// The distance less the obstacle's uncertainty [m]; the horizon when there is none.
+    /// The distance less the obstacle's uncertainty [m]; the cap when there is none.
     double margin = 0.0;
   };
 
@@ -44,10 +44,10 @@ class CollisionWorld {
   double speed(int obstacle) const { return Nth(entries_, obstacle).speed; }
 
   /// The obstacle with the least margin to the body at X_WB at the worst of the times [t −
-  /// half_width, t + half_width] as its speed bounds it, among those where that is below `horizon`
+  /// half_width, t + half_width] as its speed bounds it, among those where that is below `cap`
   /// [m]. The margin told is that at t.
   Nearest FindNearest(const CollisionShape& body, const Eigen::Isometry3d& X_WB, double t,
-                      double horizon, double half_width = 0.0) const;
+                      double cap, double half_width = 0.0) const;
 
   /// Whether the margin of every obstacle to the body at X_WB is at least `clearance` [m] at all
   /// times of [t − half_width, t + half_width]. A lower bound decides, so true is proved.

@@ -207,8 +207,7 @@ bool Contains(const CollisionShape& body, const CollisionShape& mesh,
 
 // The normal points to the body.
 Separation SeparateFromMesh(const CollisionShape& body, const Eigen::Isometry3d& X_WB,
-                            const CollisionShape& mesh, const Eigen::Isometry3d& X_WM,
-                            double horizon) {
+                            const CollisionShape& mesh, const Eigen::Isometry3d& X_WM, double cap) {
   // The slab between the body and the mesh's hull. How far these overlap costs much and matters
   // only where the body touches the mesh itself.
   const auto slab = [&](double enough) {
@@ -222,18 +221,18 @@ Separation SeparateFromMesh(const CollisionShape& body, const Eigen::Isometry3d&
     to_hull.distance = std::min(to_hull.distance, 0.0);
     return to_hull;
   };
-  if (apart && to_hull.distance >= horizon) return to_hull;
+  if (apart && to_hull.distance >= cap) return to_hull;
   try {
     const double ball = body.impl().beyond();
     const double rounding = TriangleRounding(body, X_WB, mesh, X_WM);
-    const double asked = std::max(horizon, kLeastRounding) + ball + rounding;
+    const double asked = std::max(cap, kLeastRounding) + ball + rounding;
     const auto found = TriangleSurface::Distance(body.impl().surface(), X_WB, X_WB * body.center(),
                                                  body.radius(), mesh.impl().surface(), X_WM, asked);
     const double core_distance = found ? found->distance - rounding : asked - rounding;
     if (!(core_distance > 0)) return contact();
     if (!apart && Contains(body, mesh, X_WM.inverse(Eigen::Isometry) * X_WB)) return contact();
     if (!found) {
-      to_hull.distance = std::max(horizon, to_hull.distance);
+      to_hull.distance = std::max(cap, to_hull.distance);
       return to_hull;
     }
     if (!apart && core_distance - ball < 0) to_hull = slab(kConverge);
@@ -261,13 +260,13 @@ double SeparationAlong(const ConvexBody& a, const Eigen::Isometry3d& X_Wa, const
 }
 
 Separation Separate(const CollisionShape& a, const Eigen::Isometry3d& X_Wa, const CollisionShape& b,
-                    const Eigen::Isometry3d& X_Wb, double horizon) {
+                    const Eigen::Isometry3d& X_Wb, double cap) {
   HALFSTEP_CHECK(IsFinite(X_Wa) && IsFinite(X_Wb), "a pose is not finite:\n"
                                                        << X_Wa.matrix() << "\n"
                                                        << X_Wb.matrix());
   HALFSTEP_CHECK(!(a.is_mesh() && b.is_mesh()), "two meshes");
-  if (b.is_mesh()) return SeparateFromMesh(a, X_Wa, b, X_Wb, horizon);
-  if (a.is_mesh()) return Swapped(SeparateFromMesh(b, X_Wb, a, X_Wa, horizon));
+  if (b.is_mesh()) return SeparateFromMesh(a, X_Wa, b, X_Wb, cap);
+  if (a.is_mesh()) return Swapped(SeparateFromMesh(b, X_Wb, a, X_Wa, cap));
   return InWorld(Slab(a, X_Wa, b, X_Wb, kConverge), X_Wa);
 }
 

@@ -64,11 +64,11 @@ double SeparationAlong(const ConvexBody& a, const Eigen::Isometry3d& X_Wa, const
 /// (std::logic_error). An exception inside FCL counts as contact. FCL is not asked about convex
 /// pairs: on random pairs its libccd distance was more than 1e-6 m too large for one in eight (by
 /// up to 28 mm), while the two bounds of FindConvexDistance were never 1e-6 m apart.
-/// A mesh that is at least `horizon` [m] away may be told as any distance from `horizon` up to the
+/// A mesh that is at least `cap` [m] away may be told as any distance from `cap` up to the
 /// true one, without witness points: then its far triangles cost nothing.
 Separation Separate(const CollisionShape& a, const Eigen::Isometry3d& X_Wa, const CollisionShape& b,
                     const Eigen::Isometry3d& X_Wb,
-                    double horizon = std::numeric_limits<double>::infinity());
+                    double cap = std::numeric_limits<double>::infinity());
 
 /// Whether the bodies are at least `clearance` [m] apart, by the same lower bound as Separate.
 /// `normal_W` is the direction that separated them last (zero: none yet). It is tried first, and

@@ -88,14 +88,14 @@ int TriangleSurface::built() const { return impl_->built; }
 
 std::optional<TriangleSurface::Nearest> TriangleSurface::Distance(
     const TriangleSurface& a, const Eigen::Isometry3d& X_Wa, const Eigen::Vector3d& center_W,
-    double radius, const TriangleSurface& b, const Eigen::Isometry3d& X_Wb, double horizon) {
+    double radius, const TriangleSurface& b, const Eigen::Isometry3d& X_Wb, double cap) {
   const BoundsTree& tree = b.impl_->tree;
   const Eigen::Vector3d center = X_Wb.inverse(Eigen::Isometry) * center_W;
   const double rounding =
       1e-12 * (1.0 + radius + X_Wb.translation().norm() + center_W.norm() + tree.Farthest());
   const fcl::DistanceRequestd request(/*enable_nearest_points=*/true);
   // The result goes from block to block, and FCL leaves out what is farther than it.
-  fcl::DistanceResultd result(horizon);
+  fcl::DistanceResultd result(cap);
   // Nodes by a lower bound of their distance, the nearest first.
   using Bound = std::pair<double, int32_t>;
   std::priority_queue<Bound, std::vector<Bound>, std::greater<>> open;

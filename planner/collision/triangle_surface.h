@@ -33,12 +33,12 @@ class TriangleSurface {
     Eigen::Vector3d point_a_W{0, 0, 0}, point_b_W{0, 0, 0};  ///< the two nearest points, in W [m]
   };
   /// The distance of surface a, which lies within the ball `radius` [m] around `center_W`, from b;
-  /// none when it is at least `horizon` > 0 [m]. Of a only the first block is taken: it shall have
+  /// none when it is at least `cap` > 0 [m]. Of a only the first block is taken: it shall have
   /// one. Throws what FCL throws.
   static std::optional<Nearest> Distance(const TriangleSurface& a, const Eigen::Isometry3d& X_Wa,
                                          const Eigen::Vector3d& center_W, double radius,
                                          const TriangleSurface& b, const Eigen::Isometry3d& X_Wb,
-                                         double horizon);
+                                         double cap);
 
  private:
   struct Impl;

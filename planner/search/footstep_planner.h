@@ -73,7 +73,7 @@ enum class PlanStatus {
 /// As manifests call it: "solved".
 std::string_view Name(PlanStatus status);
 
-/// What a planner found, and its effort.
+/// What a planner found, and its work.
 struct [[nodiscard]] PlanResult {
   PlanStatus status = PlanStatus::kNotRun;       ///< how it ended
   std::string sentence = "Plan was not called";  ///< the same for people

@@ -177,11 +177,11 @@ bool SweptVolumeQuery::UpIsFree(int i, Side support, const Foothold& X_WS) const
   return IsFree(Up(i, support, X_WS), 0.0);
 }
 
-double SweptVolumeQuery::Clearance(const Placed& placed, double horizon) const {
+double SweptVolumeQuery::Clearance(const Placed& placed, double cap) const {
   constexpr double kResolution = 1e-3;  // [m]
   if (!IsFree(placed, 0.0)) return 0.0;
-  if (IsFree(placed, horizon)) return horizon;
-  double free = 0.0, taken = horizon;
+  if (IsFree(placed, cap)) return cap;
+  double free = 0.0, taken = cap;
   while (taken - free > kResolution) {
     const double mid = 0.5 * (free + taken);
     (IsFree(placed, mid) ? free : taken) = mid;
@@ -190,13 +190,12 @@ double SweptVolumeQuery::Clearance(const Placed& placed, double horizon) const {
 }
 
 double SweptVolumeQuery::DownClearance(int i, Side support, const Foothold& X_WS,
-                                       double horizon) const {
-  return Clearance(Down(i, support, X_WS), horizon);
+                                       double cap) const {
+  return Clearance(Down(i, support, X_WS), cap);
 }
 
-double SweptVolumeQuery::UpClearance(int i, Side support, const Foothold& X_WS,
-                                     double horizon) const {
-  return Clearance(Up(i, support, X_WS), horizon);
+double SweptVolumeQuery::UpClearance(int i, Side support, const Foothold& X_WS, double cap) const {
+  return Clearance(Up(i, support, X_WS), cap);
 }
 
 }  // namespace halfstep

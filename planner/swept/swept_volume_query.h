@@ -42,10 +42,10 @@ class SweptVolumeQuery : public HalfStepQuery {
 
   /// A distance [m] from the volume (so from the robot: the baked clearance more) that is free of
   /// obstacles in all directions of the axes; 0 when the half-step is not free. Found by halving to
-  /// 1 mm; at most `horizon` [m]. No-step areas do not count.
-  double DownClearance(int i, Side support, const Foothold& X_WS, double horizon) const;
+  /// 1 mm; at most `cap` [m]. No-step areas do not count.
+  double DownClearance(int i, Side support, const Foothold& X_WS, double cap) const;
   /// The same of the up half-step.
-  double UpClearance(int i, Side support, const Foothold& X_WS, double horizon) const;
+  double UpClearance(int i, Side support, const Foothold& X_WS, double cap) const;
 
   /// Moves one obstacle of the scene; the others stay as they are prepared, and so does how far it
   /// is grown. Precondition: it has no waypoints (std::logic_error).
@@ -103,7 +103,7 @@ class SweptVolumeQuery : public HalfStepQuery {
   bool MeetsLeaf(const Placed& placed, const BoundsTree::Node& leaf, double extra) const;
   bool MeetsObstacle(const BoxTree& tree, const Placed& placed, const Prepared& obstacle,
                      double extra) const;
-  double Clearance(const Placed& placed, double horizon) const;
+  double Clearance(const Placed& placed, double cap) const;
 
   const SweptVolumes& volumes_;
   std::vector<Bounds> down_bounds_, up_bounds_;

@@ -83,11 +83,11 @@ bool BodyClearances::PairClears(size_t pair, const Posture& posture, double clea
 }
 
 CollisionWorld::Nearest BodyClearances::NearestTo(size_t body, const Posture& posture, double t,
-                                                  double horizon, Scratch* scratch,
+                                                  double cap, Scratch* scratch,
                                                   double half_width) const {
   ++scratch->queries;
   return world_.FindNearest(shapes_[body], posture.OfBody(robot_.bodies[body]), t,
-                            std::max(horizon, 1e-9), half_width);
+                            std::max(cap, 1e-9), half_width);
 }
 
 Separation BodyClearances::SeparationOf(size_t pair, const Posture& posture,
@@ -99,25 +99,25 @@ Separation BodyClearances::SeparationOf(size_t pair, const Posture& posture,
                   posture.OfBody(robot_.bodies[b]));
 }
 
-Margin BodyClearances::OfBody(size_t body, const Posture& posture, double t, double horizon,
+Margin BodyClearances::OfBody(size_t body, const Posture& posture, double t, double cap,
                               Scratch* scratch, double half_width) const {
-  const auto nearest = NearestTo(body, posture, t, horizon, scratch, half_width);
+  const auto nearest = NearestTo(body, posture, t, cap, scratch, half_width);
   Margin margin{
-      .family = MarginFamily::kClearance, .value = horizon, .subject = static_cast<int>(body)};
-  // Within a half-width, an obstacle that is beyond the horizon now may be the one that matters.
-  if (nearest.obstacle >= 0 && (half_width > 0.0 || nearest.margin < horizon)) {
+      .family = MarginFamily::kClearance, .value = cap, .subject = static_cast<int>(body)};
+  // Within a half-width, an obstacle that is beyond the cap now may be the one that matters.
+  if (nearest.obstacle >= 0 && (half_width > 0.0 || nearest.margin < cap)) {
     margin.value = nearest.margin;
     margin.other = nearest.obstacle;
   }
   return margin;
 }
 
-Margin BodyClearances::OfPair(size_t pair, const Posture& posture, double horizon,
+Margin BodyClearances::OfPair(size_t pair, const Posture& posture, double cap,
                               Scratch* scratch) const {
   const auto [i, j] = robot_.self_pairs[pair];
-  Margin margin{.family = MarginFamily::kSelfClearance, .value = horizon, .subject = i, .other = j};
-  if (QuickBound(pair, *scratch) >= horizon) return margin;
-  margin.value = std::min(horizon, SeparationOf(pair, posture, scratch).distance);
+  Margin margin{.family = MarginFamily::kSelfClearance, .value = cap, .subject = i, .other = j};
+  if (QuickBound(pair, *scratch) >= cap) return margin;
+  margin.value = std::min(cap, SeparationOf(pair, posture, scratch).distance);
   return margin;
 }
 
@@ -142,9 +142,9 @@ std::optional<Margin> BodyClearances::FirstPairBelow(const Posture& posture, dou
   return std::nullopt;
 }
 
-Margin BodyClearances::NearestObstacle(const Posture& posture, double t, double horizon,
+Margin BodyClearances::NearestObstacle(const Posture& posture, double t, double cap,
                                        Scratch* scratch) const {
-  Margin nearest{.family = MarginFamily::kClearance, .value = horizon};
+  Margin nearest{.family = MarginFamily::kClearance, .value = cap};
   for (size_t b = 0; b < num_bodies(); ++b) {
     const Margin margin = OfBody(b, posture, t, nearest.value, scratch);
     if (margin.value < nearest.value) nearest = margin;
@@ -152,8 +152,8 @@ Margin BodyClearances::NearestObstacle(const Posture& posture, double t, double 
   return nearest;
 }
 
-Margin BodyClearances::NearestPair(const Posture& posture, double horizon, Scratch* scratch) const {
-  Margin nearest{.family = MarginFamily::kSelfClearance, .value = horizon};
+Margin BodyClearances::NearestPair(const Posture& posture, double cap, Scratch* scratch) const {
+  Margin nearest{.family = MarginFamily::kSelfClearance, .value = cap};
   Place(posture, scratch);
   for (size_t p = 0; p < num_pairs(); ++p) {
     const Margin margin = OfPair(p, posture, nearest.value, scratch);

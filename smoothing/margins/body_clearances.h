@@ -48,17 +48,17 @@ class BodyClearances {
                   double half_width = 0.0) const;
   /// Whether the bodies of a pair keep `clearance` [m].
   bool PairClears(size_t pair, const Posture& posture, double clearance, Scratch* scratch) const;
-  /// The clearance of one body, and that of one pair; `horizon` [m] when nothing is nearer. With a
+  /// The clearance of one body, and that of one pair; `cap` [m] when nothing is nearer. With a
   /// `half_width` [s], that of the obstacle whose margin may be the least within it
   /// (CollisionWorld::FindNearest).
-  Margin OfBody(size_t body, const Posture& posture, double t, double horizon, Scratch* scratch,
+  Margin OfBody(size_t body, const Posture& posture, double t, double cap, Scratch* scratch,
                 double half_width = 0.0) const;
   /// The clearance of one pair of bodies, as OfBody.
-  Margin OfPair(size_t pair, const Posture& posture, double horizon, Scratch* scratch) const;
+  Margin OfPair(size_t pair, const Posture& posture, double cap, Scratch* scratch) const;
 
   /// The same with witness points and normals, which derivatives need. NearestTo looks for the
-  /// nearest obstacle within `horizon` [m]; in SeparationOf, `a` is the first body of the pair.
-  CollisionWorld::Nearest NearestTo(size_t body, const Posture& posture, double t, double horizon,
+  /// nearest obstacle within `cap` [m]; in SeparationOf, `a` is the first body of the pair.
+  CollisionWorld::Nearest NearestTo(size_t body, const Posture& posture, double t, double cap,
                                     Scratch* scratch, double half_width = 0.0) const;
   /// How the bodies of a pair lie to each other; `a` is the first of them.
   Separation SeparationOf(size_t pair, const Posture& posture, Scratch* scratch) const;
@@ -70,11 +70,11 @@ class BodyClearances {
   /// The first pair of bodies that does not keep `clearance` [m]; none when all keep it.
   std::optional<Margin> FirstPairBelow(const Posture& posture, double clearance,
                                        Scratch* scratch) const;
-  /// The smallest clearance of any body to the obstacles, and that of any pair; `horizon` [m] when
+  /// The smallest clearance of any body to the obstacles, and that of any pair; `cap` [m] when
   /// nothing is nearer.
-  Margin NearestObstacle(const Posture& posture, double t, double horizon, Scratch* scratch) const;
+  Margin NearestObstacle(const Posture& posture, double t, double cap, Scratch* scratch) const;
   /// The smallest clearance of any pair, as NearestObstacle.
-  Margin NearestPair(const Posture& posture, double horizon, Scratch* scratch) const;
+  Margin NearestPair(const Posture& posture, double cap, Scratch* scratch) const;
 
  private:
   // A lower bound of the distance of a pair, from Place's numbers alone [m]; whether it tells that

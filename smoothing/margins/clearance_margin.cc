@@ -8,7 +8,7 @@ namespace halfstep {
 namespace {
 
 // Distance from a body of the robot to the obstacles where they are said to be at that time, less
-// how far from there they may be [m]; at most the clearance horizon; −∞ when a leg does not reach.
+// how far from there they may be [m]; at most the clearance cap; −∞ when a leg does not reach.
 // Proved body by body: over an interval each obstacle takes off its own speed times the half
 // width. Subject: index of RobotModel::bodies. Other: the obstacle.
 class ClearanceMargin final : public MarginStatements {
@@ -46,9 +46,8 @@ class ClearanceMargin final : public MarginStatements {
 
   Margin Least(Instant* at, double enough) const override {
     if (!at->reachable()) return Of(-kUnlimited, -1);
-    const double horizon = std::min(enough, ClearanceHorizon(at->limits()));
-    return place_.clearances.NearestObstacle(at->posture(), at->t(), horizon,
-                                             &at->scratch().bodies);
+    const double cap = std::min(enough, ClearanceCap(at->limits()));
+    return place_.clearances.NearestObstacle(at->posture(), at->t(), cap, &at->scratch().bodies);
   }
 
   std::optional<Margin> FirstBelow(Instant* at, double demanded) const override {
@@ -72,7 +71,7 @@ class ClearanceMargin final : public MarginStatements {
     const Posture& posture = at->posture();
     const BodyClearances& clearances = place_.clearances;
     BodyClearances::Scratch& scratch = at->scratch().bodies;
-    const double far = rows->horizon();
+    const double far = rows->cutoff_margin();
     for (size_t b = 0; b < place_.robot.bodies.size(); ++b) {
       if (clearances.BodyClears(b, posture, at->t(), far, &scratch)) continue;
       const auto nearest = clearances.NearestTo(b, posture, at->t(), far, &scratch);
@@ -101,7 +100,7 @@ class ClearanceMargin final : public MarginStatements {
     BodyClearances::Scratch& scratch = interval.mid.scratch().bodies;
     const double demanded = interval.mid.demanded(family());
     const double rounding = interval.mid.rounding();
-    const double horizon = interval.mid.limits().clearance_horizon;
+    const double cap = interval.mid.limits().clearance_cap;
     const double t = interval.mid.t();
     const double half_width = interval.motion.half_width;
     FamilyProof proof;
@@ -110,7 +109,7 @@ class ClearanceMargin final : public MarginStatements {
       const double bound = interval.motion.displacement[body] + rounding;  // of the body alone
       if (clearances.BodyClears(body, posture, t, demanded + bound, &scratch, half_width)) {
         if (interval.with_margins) {
-          const double enough = std::max(horizon, demanded + bound + rounding);
+          const double enough = std::max(cap, demanded + bound + rounding);
           const Margin margin = clearances.OfBody(body, posture, t, enough, &scratch, half_width);
           const double of_obstacle =
               margin.other < 0 ? 0.0 : clearances.obstacle_speed(margin.other) * half_width;

@@ -52,7 +52,7 @@ class GroundMargin final : public WholeFamily {
     if (!at->regular()) return;
     const Posture& posture = at->posture();
     for (int b : place_.heights.of_legs()) {
-      if (place_.heights.LowestPossible(b, posture) > rows->horizon()) continue;
+      if (place_.heights.LowestPossible(b, posture) > rows->cutoff_margin()) continue;
       const RobotBody& body = Nth(place_.robot.bodies, b);
       const Eigen::Vector3d lowest = place_.heights.LowestPoint(b, posture);
       rows->Add(lowest.z() - place_.heights.floor(), [&](size_t i) {

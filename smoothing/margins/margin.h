@@ -89,7 +89,7 @@ struct MarginLimits {
   std::array<double, kNumMarginFamilies> demanded = DefaultDemands();
   /// A clearance beyond this reads as this [m], or as twice the largest demanded clearance where
   /// that is more.
-  double clearance_horizon = 0.3;
+  double clearance_cap = 0.3;
   OwnMargins own = {};  ///< more margins to be kept, of one's own; not null
 
   /// What is demanded of a family [its unit]; kNotDemanded: nothing.

@@ -57,8 +57,8 @@ std::vector<Side> MarginStatements::FootOf(const RobotModel& robot, int body) {
   return {static_cast<Side>(Nth(robot.bodies, body).leg)};
 }
 
-double MarginStatements::ClearanceHorizon(const MarginLimits& limits) {
-  return std::max({limits.clearance_horizon, 2.0 * limits.demanded_of(MarginFamily::kClearance),
+double MarginStatements::ClearanceCap(const MarginLimits& limits) {
+  return std::max({limits.clearance_cap, 2.0 * limits.demanded_of(MarginFamily::kClearance),
                    2.0 * limits.demanded_of(MarginFamily::kSelfClearance)});
 }
 

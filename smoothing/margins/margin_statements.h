@@ -93,9 +93,9 @@ class MarginStatements {
   static std::string BodyName(const RobotModel& robot, int body);
   /// The foot to which a body belongs (index of RobotModel::bodies); empty: to none.
   static std::vector<Side> FootOf(const RobotModel& robot, int body);
-  /// Distances are told apart up to this [m]: MarginLimits::clearance_horizon, or twice the largest
+  /// Distances are told apart up to this [m]: MarginLimits::clearance_cap, or twice the largest
   /// demanded clearance where that is more.
-  static double ClearanceHorizon(const MarginLimits& limits);
+  static double ClearanceCap(const MarginLimits& limits);
 
  private:
   const FamilyTraits& traits_;

@@ -51,7 +51,7 @@ class OwnMargin final : public WholeFamily {
   void AddRows(Instant* at, SlackSink* rows) const override {
     for (const auto& own : all_) {
       const double value = own->Value(at) / own->scale();
-      if (!(value <= rows->horizon()) || !std::isfinite(value)) continue;
+      if (!(value <= rows->cutoff_margin()) || !std::isfinite(value)) continue;
       const std::vector<double> slopes = own->Slopes(at, rows->sensitivities);
       rows->Add(value, [&](size_t i) { return slopes[i] / own->scale(); });
     }

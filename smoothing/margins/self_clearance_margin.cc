@@ -7,7 +7,7 @@
 namespace halfstep {
 namespace {
 
-// Distance between two of the robot's own bodies [m], at most the clearance horizon; −∞ when a leg
+// Distance between two of the robot's own bodies [m], at most the clearance cap; −∞ when a leg
 // does not reach. Proved pair by pair. Subject and other: indices of RobotModel::bodies.
 class SelfClearanceMargin final : public MarginStatements {
  public:
@@ -49,8 +49,8 @@ class SelfClearanceMargin final : public MarginStatements {
 
   Margin Least(Instant* at, double enough) const override {
     if (!at->reachable()) return Of(-kUnlimited, -1);
-    const double horizon = std::min(enough, ClearanceHorizon(at->limits()));
-    return place_.clearances.NearestPair(at->posture(), horizon, &at->scratch().bodies);
+    const double cap = std::min(enough, ClearanceCap(at->limits()));
+    return place_.clearances.NearestPair(at->posture(), cap, &at->scratch().bodies);
   }
 
   std::optional<Margin> FirstBelow(Instant* at, double demanded) const override {
@@ -76,7 +76,7 @@ class SelfClearanceMargin final : public MarginStatements {
     BodyClearances::Scratch& scratch = at->scratch().bodies;
     clearances.Place(posture, &scratch);
     for (size_t p = 0; p < clearances.num_pairs(); ++p) {
-      if (clearances.PairClears(p, posture, rows->horizon(), &scratch)) continue;
+      if (clearances.PairClears(p, posture, rows->cutoff_margin(), &scratch)) continue;
       const Separation gap = clearances.SeparationOf(p, posture, &scratch);
       const auto [a, b] = place_.robot.self_pairs[p];
       const RobotBody& first = Nth(place_.robot.bodies, a);
@@ -102,7 +102,7 @@ class SelfClearanceMargin final : public MarginStatements {
     BodyClearances::Scratch& scratch = interval.mid.scratch().bodies;
     const double demanded = interval.mid.demanded(family());
     const double rounding = interval.mid.rounding();
-    const double horizon = interval.mid.limits().clearance_horizon;
+    const double cap = interval.mid.limits().clearance_cap;
     FamilyProof proof;
     clearances.Place(motion.posture, &scratch);
     std::erase_if(*open, [&](uint16_t pair) {
@@ -114,7 +114,7 @@ class SelfClearanceMargin final : public MarginStatements {
                            rounding;
       if (clearances.PairClears(pair, motion.posture, demanded + bound, &scratch)) {
         if (interval.with_margins) {
-          const double enough = std::max(horizon, demanded + bound + rounding);
+          const double enough = std::max(cap, demanded + bound + rounding);
           proof.held.Add(clearances.OfPair(pair, motion.posture, enough, &scratch), bound);
         }
         return true;

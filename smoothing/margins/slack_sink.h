@@ -44,7 +44,7 @@ class SlackSink {
   void Begin(MarginFamily family, double demanded);
 
   /// The margin beyond which statements are left out [its unit].
-  double horizon() const { return demanded_ + cutoff_ * scale_; }
+  double cutoff_margin() const { return demanded_ + cutoff_ * scale_; }
 
   /// Adds a statement unless it is beyond the cutoff; `derivative(i)` is ∂margin/∂parameter i with
   /// obstacles held still, `rate` is ∂margin/∂t by what these do [its unit/s].

@@ -96,12 +96,12 @@ class Bisection {
   std::optional<Margin> Try(int junction, double candidate, const FeasibilityTest& test) {
     walk_.SetOverlap(junction, candidate);
     // Just before t_{i+1}: an interval that ends there is cut anew, also where e_i = t_{i+2} and
-    // the window would be a whole stretch.
+    // the span would be a whole stretch.
     // All that comes later meets the obstacles earlier, which matters where they move.
     const double begin = std::nextafter(walk_.start_of(junction + 1), -1.0);
     const bool local = rests_ || problem_.scene().OnlyGrowsFrom(begin);
-    const TimeWindow window{begin, local ? walk_.end_of(junction) : walk_.duration()};
-    const Feasibility answer = test.Check(walk_, window, monitor_.scratch());
+    const TimeSpan span{begin, local ? walk_.end_of(junction) : walk_.duration()};
+    const Feasibility answer = test.Check(walk_, span, monitor_.scratch());
     const bool accepted = answer.verdict == Verdict::kFeasible;
     if (&test != &problem_.test()) return accepted ? std::nullopt : std::optional(answer.witness);
     if (accepted) {

@@ -18,7 +18,7 @@ struct FineDichotomies {
 FineDichotomies RunFineDichotomies(const WalkProblem& problem, double tolerance, bool from_start,
                                    SmoothingMonitor& monitor);
 
-/// Counts the effort of a search that was part of the monitor's, and makes its walk, its candidates
+/// Counts the work of a search that was part of the monitor's, and makes its walk, its candidates
 /// and its junctions the monitor's, where it is shorter than the incumbent or began at it.
 void TakeSearch(const SmoothingResult& found, bool from_incumbent, SmoothingMonitor& monitor);
 

@@ -23,11 +23,12 @@ struct DeclaredGroup {
 
 /// Names a group of options: keys of YAML, and the copyable type that they fill. It has default
 /// values, and its keys are declared once by `void DeclareFields(Fields&, Options*)`, in the
-/// namespace of the type. Methods that name the same group share its values.
+/// namespace of the type or of what it holds. Methods that name the same group share its values.
 template <typename Options>
 struct OptionGroup {
   std::string key;      ///< in YAML; a method's own group has the name of the method
   std::string meaning;  ///< one line, for `halfstep explain-config`
+  Options defaults{};   ///< the values where no config says others
 
   /// The same for those who do not know the type.
   operator DeclaredGroup() const;
@@ -40,13 +41,13 @@ class MethodOptions {
   template <typename Options>
   Options Get(const OptionGroup<Options>& group) const {
     const auto found = values_.find(group.key);
-    return found == values_.end() ? Options{} : *As<Options>(&found->second, group.key);
+    return found == values_.end() ? group.defaults : *As<Options>(&found->second, group.key);
   }
   /// The same, to be changed; as long as these options live.
   template <typename Options>
   Options& Edit(const OptionGroup<Options>& group) {
     std::any& value = values_[group.key];
-    if (!value.has_value()) value = Options{};
+    if (!value.has_value()) value = group.defaults;
     return *As<Options>(&value, group.key);
   }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "smoothing/proof/sampled_feasibility.h"
+#include "smoothing/walk/splice.h"
 #include "smoothing/walk/superposed_walk.h"
 #include "wpg/files/plain_locale.h"
 #include "wpg/nth.h"
@@ -23,7 +24,7 @@ constexpr double kDurationStep = 0.01;   // of the duration: how finely it is lo
 
 class Repair {
  public:
-  Repair(const HalfStepSequence& plan, const FeasibilityTest& test, const RepairRange& range,
+  Repair(const HalfStepSequence& plan, const FeasibilityTest& test, const ChangeRange& range,
          const std::stop_token& stop)
       : plan_(plan), test_(test), range_(range), scratch_(test.evaluator().MakeScratch()) {
     scratch_.stop = stop;
@@ -31,17 +32,16 @@ class Repair {
   }
 
   PlanRepair Run() {
-    if (!test_.evaluator().scene().rests()) {
+    if (!evaluator().scene().rests()) {
       result_.failures.push_back("among obstacles that move no step can be looked at by itself");
       return std::move(result_);
     }
     for (int step = 0; step < plan_.num_steps() && !Stopped(); ++step) RepairStep(step);
     if (result_.failures.empty() && !Stopped()) {
-      const SuperposedWalk walk(result_.sequence, PlannedMotion(result_.sequence));
-      const Feasibility whole = test_.Check(walk, {0.0, walk.duration()}, &scratch_);
+      const Feasibility whole = CheckPlanned(result_.sequence, test_, &scratch_);
       if (whole.verdict != Verdict::kFeasible) {
         result_.failures.push_back("the repaired plan is not feasible as a whole: " +
-                                   test_.evaluator().Describe(whole.witness));
+                                   evaluator().Describe(whole.witness));
       }
     }
     result_.stopped = Stopped();
@@ -50,60 +50,57 @@ class Repair {
 
  private:
   bool Stopped() const { return scratch_.stop.stop_requested(); }
+  const MarginEvaluator& evaluator() const { return test_.evaluator(); }
 
-  // The step with another duration and height, by itself.
-  HalfStepSequence Alone(int step, double duration, double height) const {
-    HalfStepSequence alone = plan_;
-    const auto first = plan_.half_steps.begin() + 2 * step;
-    alone.half_steps.assign(first, first + 2);
-    const PlacedHalfStep& up = alone.half_steps.front();
-    Nth(alone.start, Index(up.half_step.support)) = up.X_WS;
-    Nth(alone.start, Index(up.half_step.swing())) = up.X_WS * up.half_step.X_SF;
-    Change(duration, height, &alone.half_steps[0]);
-    Change(duration, height, &alone.half_steps[1]);
+  // A step as planned.
+  PlanChange Planned(int step) const {
+    const HalfStep& up = Nth(plan_.half_steps, 2 * step).half_step;
+    return {.step = step, .duration = up.duration, .via_height = up.via_height};
+  }
+
+  // The changed step by itself.
+  HalfStepSequence Alone(const PlanChange& change) const {
+    HalfStepSequence alone = PlannedPart(plan_, 2 * *change.step, 2 * *change.step + 2);
+    for (PlacedHalfStep& placed : alone.half_steps) Change(change, &placed);
     return alone;
   }
 
-  static void Change(double duration, double height, PlacedHalfStep* placed) {
-    placed->half_step.duration = duration;
-    placed->half_step.via_height = height;
+  static void Change(const PlanChange& change, PlacedHalfStep* placed) {
+    placed->half_step.duration = *change.duration;
+    placed->half_step.via_height = *change.via_height;
   }
 
-  bool Proved(int step, double duration, double height) {
-    const HalfStepSequence alone = Alone(step, duration, height);
-    const SuperposedWalk walk(alone, PlannedMotion(alone));
-    return test_.Check(walk, {0.0, walk.duration()}, &scratch_).verdict == Verdict::kFeasible;
+  bool Proved(const PlanChange& change) {
+    return CheckPlanned(Alone(change), test_, &scratch_).verdict == Verdict::kFeasible;
   }
 
   // The margin with the least slack at samples of the step.
-  Margin Worst(int step, double duration, double height) {
-    const HalfStepSequence alone = Alone(step, duration, height);
+  Margin Worst(const PlanChange& change) {
+    const HalfStepSequence alone = Alone(change);
     const SuperposedWalk walk(alone, PlannedMotion(alone));
-    return WorstOf(SampleMargins(test_.evaluator(), walk, kPeriod, &scratch_),
-                   test_.evaluator().limits());
+    return WorstOf(SampleMargins(evaluator(), walk, kPeriod, &scratch_), evaluator().limits());
   }
 
-  double Slack(const Margin& margin) const { return test_.evaluator().limits().Slack(margin); }
+  double Slack(const Margin& margin) const { return evaluator().limits().Slack(margin); }
 
   // What the robot misses where it stands at rest on both feet, before or after the step.
-  std::optional<Margin> MissedAtRest(int step) {
-    const HalfStep& half_step = Nth(plan_.half_steps, 2 * step).half_step;
-    const HalfStepSequence alone = Alone(step, half_step.duration, half_step.via_height);
+  std::optional<Margin> MissedAtRest(const PlanChange& planned) {
+    const HalfStepSequence alone = Alone(planned);
     const SuperposedWalk walk(alone, PlannedMotion(alone));
     for (const double t : {0.0, walk.duration()}) {
-      const Margin worst = WorstOf(test_.evaluator().At(walk, walk.Locate(t), &scratch_),
-                                   test_.evaluator().limits());
+      const Margin worst =
+          WorstOf(evaluator().At(walk, walk.Locate(t), &scratch_), evaluator().limits());
       if (Slack(worst) < 0.0) return worst;
     }
     return std::nullopt;
   }
 
   void RepairStep(int step) {
-    const HalfStep& planned = Nth(plan_.half_steps, 2 * step).half_step;
-    if (Proved(step, planned.duration, planned.via_height) || Stopped()) return;
+    const PlanChange planned = Planned(step);
+    if (Proved(planned) || Stopped()) return;
     PlainStream why;
     why << "footstep " << step + 1;
-    if (const std::optional<Margin> missed = MissedAtRest(step)) {
+    if (const std::optional<Margin> missed = MissedAtRest(planned)) {
       why << " cannot be made at any duration and height: " << Told(*missed);
       result_.failures.push_back(why.str());
       return;
@@ -112,17 +109,18 @@ class Repair {
     double least_slack = -std::numeric_limits<double>::infinity();
     for (const double longer : kDurations) {
       for (const double higher : kHeights) {
-        const double duration = longer * planned.duration, height = higher * planned.via_height;
+        const PlanChange change{.step = step,
+                                .duration = longer * *planned.duration,
+                                .via_height = higher * *planned.via_height};
         if (Stopped()) return;
-        if (duration > range_.most_duration) continue;
-        if (height < range_.least_height || height > range_.most_height) continue;
-        const Margin worst = Worst(step, duration, height);
+        if (!range_.Contains(change)) continue;
+        const Margin worst = Worst(change);
         if (Slack(worst) > least_slack) {
           least_slack = Slack(worst);
           least_missed = worst;
         }
-        if (Slack(worst) < kWorthProving || !Proved(step, duration, height)) continue;
-        Keep(step, Shortest(step, planned.duration, duration, height), height);
+        if (Slack(worst) < kWorthProving || !Proved(change)) continue;
+        Keep(Shortest(*planned.duration, change));
         return;
       }
     }
@@ -135,45 +133,54 @@ class Repair {
   // "reach of left leg −0.031 m, 0 demanded"
   std::string Told(const Margin& margin) const {
     PlainStream told;
-    told << Name(margin.family) << " of " << test_.evaluator().Subject(margin) << " ";
+    told << Name(margin.family) << " of " << evaluator().Subject(margin) << " ";
     if (!std::isfinite(margin.value)) {
       told << "cannot be told, since a leg does not reach or is stretched";
       return told.str();
     }
     told << margin.value << " " << Unit(margin.family) << ", "
-         << test_.evaluator().limits().demanded_of(margin.family) << " demanded";
+         << evaluator().limits().demanded_of(margin.family) << " demanded";
     return told.str();
   }
 
-  // Between a duration that may be too short and one that was proved at this height.
-  double Shortest(int step, double shorter, double proved, double height) {
-    double refused = shorter;
-    if (proved <= shorter) return proved;
-    while (proved - refused > kDurationStep * proved && !Stopped()) {
-      const double middle = 0.5 * (refused + proved);
-      (Proved(step, middle, height) ? proved : refused) = middle;
+  // Between a duration that may be too short and that of a change that was proved.
+  PlanChange Shortest(double refused, PlanChange proved) {
+    while (*proved.duration - refused > kDurationStep * *proved.duration && !Stopped()) {
+      PlanChange middle = proved;
+      middle.duration = 0.5 * (refused + *proved.duration);
+      if (Proved(middle)) {
+        proved = middle;
+      } else {
+        refused = *middle.duration;
+      }
     }
     return proved;
   }
 
-  void Keep(int step, double duration, double height) {
-    const size_t up = static_cast<size_t>(2 * step);
-    Change(duration, height, &result_.sequence.half_steps[up]);
-    Change(duration, height, &result_.sequence.half_steps[up + 1]);
-    result_.steps.push_back({step, duration, height});
+  void Keep(const PlanChange& change) {
+    for (const int i : {2 * *change.step, 2 * *change.step + 1}) {
+      Change(change, &Nth(result_.sequence.half_steps, i));
+    }
+    result_.steps.push_back(change);
   }
 
   const HalfStepSequence& plan_;
   const FeasibilityTest& test_;
-  const RepairRange& range_;
+  const ChangeRange& range_;
   MarginEvaluator::Scratch scratch_;
   PlanRepair result_;
 };
 
 }  // namespace
 
+Feasibility CheckPlanned(const HalfStepSequence& plan, const FeasibilityTest& test,
+                         MarginEvaluator::Scratch* scratch) {
+  const SuperposedWalk walk(plan, PlannedMotion(plan));
+  return test.Check(walk, {0.0, walk.duration()}, scratch);
+}
+
 PlanRepair RepairPlan(const HalfStepSequence& plan, const FeasibilityTest& test,
-                      const RepairRange& range, const std::stop_token& stop) {
+                      const ChangeRange& range, const std::stop_token& stop) {
   return Repair(plan, test, range, stop).Run();
 }
 

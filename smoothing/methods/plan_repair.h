@@ -4,31 +4,17 @@
 #include <string>
 #include <vector>
 
-#include "smoothing/proof/feasibility_test.h"
-#include "wpg/motion/half_step_sequence.h"
+#include "smoothing/methods/plan_change.h"
 
 namespace halfstep {
 
-/// A step that goes another way than planned.
-struct RepairedStep {
-  int step = 0;             ///< from 0
-  double duration = 0.0;    ///< T of both half-steps [s]
-  double via_height = 0.0;  ///< [m]
-};
-
 /// What became of a plan whose half-steps, one after the other, miss a demand.
 struct PlanRepair {
-  HalfStepSequence sequence;        ///< with other durations and heights in `steps`
-  std::vector<RepairedStep> steps;  ///< that were changed; empty: the plan was feasible as it was
+  HalfStepSequence sequence;      ///< with other durations and heights in `steps`
+  std::vector<PlanChange> steps;  ///< that were changed; empty: the plan was feasible as it was
   /// A sentence on each step that was not made feasible; empty: the whole plan was proved.
   std::vector<std::string> failures;
   bool stopped = false;  ///< by the stop token, before it came to an end
-};
-
-/// Where steps may be looked for.
-struct RepairRange {
-  double most_duration = 6.0;                     ///< [s]
-  double least_height = 0.01, most_height = 1.0;  ///< of the via point [m]
 };
 
 /// Makes a plan feasible by the durations and the heights of its steps. In a plan nothing overlaps,
@@ -40,6 +26,6 @@ struct RepairRange {
 /// lowered by bisection to within 1 %. A step for which nothing is proved is told with what it
 /// misses least, which is no proof that there is nothing. The repaired plan is proved as a whole.
 PlanRepair RepairPlan(const HalfStepSequence& plan, const FeasibilityTest& test,
-                      const RepairRange& range, const std::stop_token& stop);
+                      const ChangeRange& range, const std::stop_token& stop);
 
 }  // namespace halfstep

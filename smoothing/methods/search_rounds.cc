@@ -8,7 +8,8 @@ namespace {
 constexpr double kSharpen = 1.5, kSoften = 0.75, kSharpest = 3000.0;
 // Where every instant has rows of its own, from the first round on.
 constexpr double kRowsSharpness = 200.0;
-// Their reserve at first, of what sharpness asks for: proofs in most of a long walk succeed with it.
+// Their reserve at first, of what sharpness asks for: proofs in most of a long walk succeed with
+// it.
 constexpr double kRowsReserve = 2.0;
 
 }  // namespace
@@ -29,7 +30,7 @@ opt::SolverOptions RoundOptions(const opt::SolverTraits& traits, ProgramKind kin
   opt::SolverOptions options;
   options.max_iterations = iterations;
   options.optimality_tolerance = 1e-4;
-  // Rows are nearly linear, and so is every cost but the effort.
+  // Rows are nearly linear, and so is every cost but the roughness.
   if (kind != ProgramKind::kSmooth) options.solver_options = traits.nearly_linear;
   return options;
 }

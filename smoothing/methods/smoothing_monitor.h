@@ -32,7 +32,7 @@ struct MonitorOptions {
 };
 
 /// Keeps what one call of a smoother found so far: the incumbent, which is feasible in the sense of
-/// the problem's test, the candidates and the effort; knows when to stop. At any moment Finish()
+/// the problem's test, the candidates and the work; knows when to stop. At any moment Finish()
 /// makes the result of it, so smoothers differ in how they search only. Only a walk that was judged
 /// becomes the incumbent: Propose() asks the test. Its clock starts when it is made.
 class SmoothingMonitor {
@@ -77,11 +77,11 @@ class SmoothingMonitor {
     if (options_.progress) options_.progress(done);
   }
 
-  /// To be handed to every check of the problem's test; it counts their effort.
+  /// To be handed to every check of the problem's test; it counts their work.
   MarginEvaluator::Scratch* scratch() { return &*scratch_; }
-  /// Adds effort that scratch() did not count.
+  /// Adds work that scratch() did not count.
   void Count(long instants, long collision_queries);
-  /// Adds the effort of another search that was part of this one.
+  /// Adds the work of another search that was part of this one.
   void Count(const SmoothingResult& part) { Count(part.instants, part.collision_queries); }
   long instants() const { return result_.instants + scratch_->instants; }  ///< evaluated so far
 
@@ -109,7 +109,7 @@ class SmoothingMonitor {
   /// Records that the start turned out not to be feasible, so that whatever was adopted is an
   /// improvement.
   void DropStart() { begun_ = std::numeric_limits<double>::infinity(); }
-  /// Records a candidate. The caller has filled what it knows; this fills time, effort and what
+  /// Records a candidate. The caller has filled what it knows; this fills time, work and what
   /// concerns the incumbent.
   void Record(SmoothingIterate iterate);
 

@@ -7,7 +7,7 @@
 namespace halfstep {
 namespace {
 
-void DeclareWeights(Fields& fields, EffortWeights* w) {
+void DeclareWeights(Fields& fields, RoughnessWeights* w) {
   const auto weight = [&](const char* key, double* value, const char* meaning, const char* unit) {
     fields.Number(key, value, {.meaning = meaning, .unit = unit, .min = 0, .max = 1000});
   };
@@ -37,28 +37,19 @@ bool NamesFamilyOfHalfSteps(const std::vector<std::string>& keys) {
   });
 }
 
-// What an earlier declaration chose, which did not read, is nothing that a file says.
-void ForgetFamiliesOfHalfSteps(SolverMethodOptions* c) {
-  ParameterChoice* const choice = &c->options.program.parameters;
+void ChooseFamiliesOfHalfSteps(bool chosen, ParameterChoice* choice) {
   for (const ParameterFamily family : AllParameterFamilies()) {
-    if (OfHalfSteps(Traits(family))) *choice->flag(family) = false;
+    if (OfHalfSteps(Traits(family))) *choice->flag(family) = chosen;
   }
-  choice->bound("least_duration") = ParameterChoice().bound("least_duration");
-  c->families_chosen = false;
-}
-
-void ChooseFamiliesOfHalfSteps(ParameterChoice* choice) {
-  for (const ParameterFamily family : AllParameterFamilies()) {
-    if (OfHalfSteps(Traits(family))) *choice->flag(family) = true;
-  }
-  choice->bound("least_duration") = 0.2;
+  choice->bound("least_duration") = chosen ? 0.2 : ParameterChoice().bound("least_duration");
 }
 
 void DeclareProgram(Fields& fields, SolverMethodOptions* c) {
-  fields.Text("program", &c->program,
-              {.meaning = "what is optimized: duration; duration and effort; the least slack for a "
-                          "duration; that for a range of durations",
-               .choices = {"fastest", "smooth", "safest", "pareto"}});
+  fields.Text(
+      "program", &c->program,
+      {.meaning = "what is optimized: duration; duration and roughness; the least slack for a "
+                  "duration; that for a range of durations",
+       .choices = {"fastest", "smooth", "safest", "pareto"}});
   for (ProgramKind kind : {ProgramKind::kFastest, ProgramKind::kSmooth, ProgramKind::kSafest}) {
     if (c->program == Name(kind)) c->options.program.kind = kind;
   }
@@ -68,14 +59,12 @@ void DeclareProgram(Fields& fields, SolverMethodOptions* c) {
 void DeclareFamilies(Fields& fields, SolverMethodOptions* c) {
   ParameterChoice* const choice = &c->options.program.parameters;
   const std::vector<std::string> keys = fields.Keys();
-  if (!keys.empty()) ForgetFamiliesOfHalfSteps(c);
   if (NamesFamilyOfHalfSteps(keys)) c->all_families = false;
   fields.Boolean("all_families", &c->all_families,
                  {.meaning = "whichever of the next keys but `footsteps` is not given is "
                              "true, and `least_duration` is 0.2; false by default where one of "
                              "these is given"});
-  if (c->all_families && !c->families_chosen) ChooseFamiliesOfHalfSteps(choice);
-  c->families_chosen = true;
+  if (!keys.empty() && !c->all_families) ChooseFamiliesOfHalfSteps(false, choice);
   for (const ParameterFamily family : AllParameterFamilies()) {
     const ParameterFamilyTraits& traits = Traits(family);
     if (traits.always || traits.key.empty()) continue;
@@ -107,7 +96,7 @@ void DeclareObjective(Fields& fields, SolverMethodOptions* c) {
   fields.Number(
       "pareto_longest", &c->pareto.most_duration,
       {.meaning = "`pareto`: longest duration, of the planned motion's", .min = 0.1, .max = 3});
-  fields.Group("weights", {.meaning = "`smooth`: of the effort beside the duration"},
+  fields.Group("weights", {.meaning = "`smooth`: of the roughness beside the duration"},
                [&](Fields& f) {
                  DeclareWeights(f, &o->program.weights);
                  DeclareOwnCosts(f, &o->program.own_costs);
@@ -150,6 +139,10 @@ void DeclareSearch(Fields& fields, OptimizerOptions* o) {
 }
 
 }  // namespace
+
+SolverMethodOptions::SolverMethodOptions() {
+  ChooseFamiliesOfHalfSteps(true, &options.program.parameters);
+}
 
 OptionGroup<SolverMethodOptions> OptimizerGroup() {
   return {"optimizer",

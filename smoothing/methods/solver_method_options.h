@@ -12,9 +12,11 @@ namespace halfstep {
 struct SolverMethodOptions {
   std::string program = "fastest";  ///< a name of ProgramKind, or "pareto": a ParetoCurve
   bool all_families = true;         ///< all families of `options` are variables unless told not to
-  bool families_chosen = false;     ///< whether `options` has heard of `all_families` already
   OptimizerOptions options;         ///< also holds for the solvers of ParetoCurve
   ParetoOptions pareto;             ///< used where `program` is `pareto`
+
+  /// As without a key: over all families of half-steps.
+  SolverMethodOptions();
 };
 
 /// `smoothing.optimizer`.

@@ -30,15 +30,6 @@ struct Part {
   }
 };
 
-// Half-steps begin … end − 1 as they are planned.
-HalfStepSequence PlannedPart(const HalfStepSequence& walk, int begin, int end) {
-  HalfStepSequence part{.start = begin == 0 ? walk.start : StanceAfter(walk, begin - 1),
-                        .half_steps = {},
-                        .model = walk.model};
-  part.half_steps.assign(walk.half_steps.begin() + begin, walk.half_steps.begin() + end);
-  return part;
-}
-
 // The plan of a part. It begins on footsteps of the two steps before it, where the walk `at` has
 // them; its own are where they are planned.
 HalfStepSequence SequenceOf(const Part& part, const HalfStepSequence& walk,

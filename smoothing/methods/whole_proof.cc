@@ -8,7 +8,7 @@ bool HoldsWhole(const WalkProblem& problem, const HomotopyParameters& parameters
   MarginEvaluator::Scratch scratch = problem.evaluator().MakeScratch();
   scratch.stop = monitor.scratch()->stop;
   scratch.workers = monitor.workers();
-  const TimeWindow all{0.0, walk.duration()};
+  const TimeSpan all{0.0, walk.duration()};
   return problem.test().Check(walk, all, &scratch).verdict == Verdict::kFeasible;
 }
 

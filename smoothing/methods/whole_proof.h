@@ -7,7 +7,7 @@ namespace halfstep {
 
 /// Whether the walk of `parameters` is proved for all its time in one go. Proofs of what a search
 /// changes are made where that is; what comes later in the walk is at another time then, where
-/// rounding differs. Its effort is not counted.
+/// rounding differs. Its work is not counted.
 bool HoldsWhole(const WalkProblem& problem, const HomotopyParameters& parameters,
                 SmoothingMonitor& monitor);
 

@@ -28,20 +28,20 @@ class DurationCost : public opt::CostTerm {
   const OverlapProgram& program_;
 };
 
-class EffortCost : public opt::CostTerm {
+class RoughnessCost : public opt::CostTerm {
  public:
-  explicit EffortCost(const OverlapProgram& program) : program_(program) {}
-  std::string name() const override { return "effort"; }
+  explicit RoughnessCost(const OverlapProgram& program) : program_(program) {}
+  std::string name() const override { return "roughness"; }
   std::string unit() const override { return "s"; }
   double Evaluate(const Eigen::VectorXd& x) const override {
     const SuperposedWalk walk(program_.variables().sequence(), program_.ToParameters(x));
-    return WeightedEffort(walk, program_.options().weights, nullptr);
+    return WeightedRoughness(walk, program_.options().weights, nullptr);
   }
   void AddGradient(const Eigen::VectorXd& x, double weight,
                    Eigen::Ref<Eigen::VectorXd> gradient) const override {
     const SuperposedWalk walk(program_.variables().sequence(), program_.ToParameters(x));
     ParameterGradient slopes;
-    WeightedEffort(walk, program_.options().weights, &slopes);
+    WeightedRoughness(walk, program_.options().weights, &slopes);
     gradient += weight * Pulled(program_.variables(), slopes, x);
   }
 
@@ -111,8 +111,8 @@ std::unique_ptr<opt::CostTerm> MakeDurationCost(const OverlapProgram& program) {
   return std::make_unique<DurationCost>(program);
 }
 
-std::unique_ptr<opt::CostTerm> MakeEffortCost(const OverlapProgram& program) {
-  return std::make_unique<EffortCost>(program);
+std::unique_ptr<opt::CostTerm> MakeRoughnessCost(const OverlapProgram& program) {
+  return std::make_unique<RoughnessCost>(program);
 }
 
 std::unique_ptr<opt::CostTerm> MakeOwnCost(const OverlapProgram& program,

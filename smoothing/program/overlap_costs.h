@@ -13,8 +13,8 @@ class OverlapProgram;
 
 /// The costs that programs minimize; each borrows its program.
 std::unique_ptr<opt::CostTerm> MakeDurationCost(const OverlapProgram& program);  ///< D [s]
-/// Weighted effort (WeightedEffort) [s].
-std::unique_ptr<opt::CostTerm> MakeEffortCost(const OverlapProgram& program);
+/// Weighted roughness (WeightedRoughness) [s].
+std::unique_ptr<opt::CostTerm> MakeRoughnessCost(const OverlapProgram& program);
 /// A cost of one's own, in its unit.
 std::unique_ptr<opt::CostTerm> MakeOwnCost(const OverlapProgram& program,
                                            std::shared_ptr<const WalkCost> cost);

@@ -49,7 +49,7 @@ double CostOf(const HalfStepSequence& sequence, const HomotopyParameters& parame
   double cost = DurationOf(parameters);
   if (options.kind == ProgramKind::kFastest) return cost;
   const SuperposedWalk walk(sequence, parameters);
-  cost += WeightedEffort(walk, options.weights, nullptr);
+  cost += WeightedRoughness(walk, options.weights, nullptr);
   for (const WeightedWalkCost& own : options.own_costs) {
     if (own.weight != 0.0) cost += own.weight * own.cost->Evaluate(walk, nullptr);
   }
@@ -101,7 +101,7 @@ opt::Problem OverlapProgram::MakeProblem() const {
       break;
     case ProgramKind::kSmooth:
       problem.AddCost(MakeDurationCost(*this), 1.0);
-      problem.AddCost(MakeEffortCost(*this), 1.0);
+      problem.AddCost(MakeRoughnessCost(*this), 1.0);
       for (const WeightedWalkCost& own : options_.own_costs) {
         if (own.weight != 0.0) problem.AddCost(MakeOwnCost(*this, own.cost), own.weight);
       }

@@ -8,7 +8,7 @@
 #include "opt/problem/problem.h"
 #include "smoothing/program/overlap_variables.h"
 #include "smoothing/program/walk_cost.h"
-#include "smoothing/program/walk_effort.h"
+#include "smoothing/program/walk_roughness.h"
 #include "smoothing/program/watched_instants.h"
 
 namespace halfstep {
@@ -16,7 +16,7 @@ namespace halfstep {
 /// What a program optimizes.
 enum class ProgramKind {
   kFastest,  ///< minimize D
-  kSmooth,   ///< minimize D + weights · (effort, own costs)
+  kSmooth,   ///< minimize D + weights · (roughness, own costs)
   kSafest,   ///< maximize the least slack of Raised() with D at most a given duration
 };
 std::string_view Name(ProgramKind kind);  ///< "fastest" …
@@ -27,11 +27,11 @@ std::array<bool, kNumMarginFamilies> Raised();
 
 /// Selects a nonlinear program over a sequence's homotopy parameters.
 struct ProgramOptions {
-  ProgramKind kind = ProgramKind::kFastest;  ///< the objective
-  ParameterChoice parameters;                ///< beside the overlaps
-  EffortWeights weights = {0.05, 0.0, 0.0};  ///< of `smooth`
-  std::vector<WeightedWalkCost> own_costs;   ///< of `smooth`, too
-  WatchOptions watch;                        ///< instants at which margins are rows
+  ProgramKind kind = ProgramKind::kFastest;     ///< the objective
+  ParameterChoice parameters;                   ///< beside the overlaps
+  RoughnessWeights weights = {0.05, 0.0, 0.0};  ///< of `smooth`
+  std::vector<WeightedWalkCost> own_costs;      ///< of `smooth`, too
+  WatchOptions watch;                           ///< instants at which margins are rows
 };
 
 /// What the walk of `parameters` costs by `fastest` or `smooth` [s]. Precondition: not `safest`.
@@ -41,7 +41,7 @@ double CostOf(const HalfStepSequence& sequence, const HomotopyParameters& parame
 /// A program over the variables of OverlapVariables, and for `safest` the slack z as the last one:
 ///
 ///     fastest   minimize D                        subject to  slacks ≥ 0
-///     smooth    minimize D + weights · effort     subject to  slacks ≥ 0
+///     smooth    minimize D + weights · roughness     subject to  slacks ≥ 0
 ///               + weights · own costs
 ///     safest    minimize −z                       subject to  raised slacks ≥ z, others ≥ 0,
 ///                                                             D ≤ duration_limit

@@ -9,7 +9,7 @@
 
 namespace halfstep {
 
-/// A cost of one's own: what the program `smooth` minimizes beside duration and effort, with the
+/// A cost of one's own: what the program `smooth` minimizes beside duration and roughness, with the
 /// weight that `smoothing.optimizer.weights` gives to its name. Const and thread-safe.
 class WalkCost {
  public:

@@ -25,16 +25,16 @@ Margin OpenStatement(const OpenGroup& group, double t, const MarginEvaluator& ev
 
 }  // namespace
 
-std::vector<double> KnotsInside(const SuperposedWalk& walk, const TimeWindow& window) {
+std::vector<double> KnotsInside(const SuperposedWalk& walk, const TimeSpan& span) {
   std::vector<double> knots;
   for (int i = 0; i < walk.num_half_steps(); ++i) {
     const double t = walk.start_of(i);
-    if (t > window.end || walk.end_of(i) < window.begin) continue;
+    if (t > span.end || walk.end_of(i) < span.begin) continue;
     const HalfStepTracks& p = walk.tracks(i);
     const bool up = walk.half_step(i).kind == HalfStepKind::kUp;
     for (double knot : {t, t + p.t1(), t + p.t2(), walk.end_of(i),
                         t + (up ? p.horizontal_begin() : p.horizontal_end())}) {
-      if (knot > window.begin && knot < window.end) knots.push_back(knot);
+      if (knot > span.begin && knot < span.end) knots.push_back(knot);
     }
   }
   std::sort(knots.begin(), knots.end());
@@ -42,23 +42,23 @@ std::vector<double> KnotsInside(const SuperposedWalk& walk, const TimeWindow& wi
   return knots;
 }
 
-TimeWindow ExtendedToKnots(const SuperposedWalk& walk, const TimeWindow& window) {
+TimeSpan ExtendedToKnots(const SuperposedWalk& walk, const TimeSpan& span) {
   const auto begins_stretch = [&walk](double t) {
     return t == walk.duration() || t == walk.start_of(walk.Locate(t).half_step);
   };
-  if (begins_stretch(window.begin) && begins_stretch(window.end)) return window;
-  TimeWindow extended = window;
-  const int before = walk.Locate(std::nextafter(window.begin, -1.0)).half_step;
+  if (begins_stretch(span.begin) && begins_stretch(span.end)) return span;
+  TimeSpan extended = span;
+  const int before = walk.Locate(std::nextafter(span.begin, -1.0)).half_step;
   const double earliest = walk.start_of(before);
-  if (earliest < window.begin) {
-    const std::vector<double> knots = KnotsInside(walk, {earliest, window.begin});
+  if (earliest < span.begin) {
+    const std::vector<double> knots = KnotsInside(walk, {earliest, span.begin});
     extended.begin = knots.empty() ? earliest : knots.back();
   }
-  const int last = walk.Locate(window.end).half_step;
+  const int last = walk.Locate(span.end).half_step;
   double latest = walk.end_of(last);
   if (last + 1 < walk.num_half_steps()) latest = std::min(latest, walk.start_of(last + 1));
-  if (latest > window.end) {
-    const std::vector<double> knots = KnotsInside(walk, {window.end, latest});
+  if (latest > span.end) {
+    const std::vector<double> knots = KnotsInside(walk, {span.end, latest});
     extended.end = knots.empty() ? latest : knots.front();
   }
   return extended;
@@ -100,17 +100,17 @@ std::string CertifiedFeasibility::Description() const {
   return out.str();
 }
 
-Feasibility CertifiedFeasibility::Decide(const SuperposedWalk& walk, const TimeWindow& asked,
+Feasibility CertifiedFeasibility::Decide(const SuperposedWalk& walk, const TimeSpan& asked,
                                          MarginEvaluator::Scratch* scratch,
                                          Certificate* certificate,
                                          const std::stop_token& stop) const {
-  const TimeWindow window{std::max(asked.begin, scope_.since), std::min(asked.end, scope_.until)};
-  if (window.end < window.begin) return {Verdict::kFeasible, Evidence::kCertified, {}};
-  // Coarse intervals of the whole window first: a violation that lasts is met early.
+  const TimeSpan span{std::max(asked.begin, scope_.since), std::min(asked.end, scope_.until)};
+  if (span.end < span.begin) return {Verdict::kFeasible, Evidence::kCertified, {}};
+  // Coarse intervals of the whole span first: a violation that lasts is met early.
   std::vector<Open> open;
-  std::vector<double> knots = KnotsInside(walk, window);
-  knots.push_back(window.end);
-  double begin = window.begin;
+  std::vector<double> knots = KnotsInside(walk, span);
+  knots.push_back(span.end);
+  double begin = span.begin;
   for (double end : knots) {
     const int n = std::max(1, static_cast<int>(std::ceil((end - begin) / options_.longest)));
     for (int k = 0; k < n; ++k) {
@@ -181,9 +181,9 @@ int CertifiedFeasibility::ProveOpen(const SuperposedWalk& walk, const std::stop_
   return met;
 }
 
-Feasibility CertifiedFeasibility::Check(const SuperposedWalk& walk, const TimeWindow& window,
+Feasibility CertifiedFeasibility::Check(const SuperposedWalk& walk, const TimeSpan& span,
                                         MarginEvaluator::Scratch* scratch) const {
-  return Decide(walk, ExtendedToKnots(walk, window), scratch, nullptr, scratch->stop);
+  return Decide(walk, ExtendedToKnots(walk, span), scratch, nullptr, scratch->stop);
 }
 
 Feasibility CertifiedFeasibility::Certify(const SuperposedWalk& walk,

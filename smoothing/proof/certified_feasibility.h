@@ -23,7 +23,7 @@ struct CertificationScope {
   }();
 };
 
-/// Decides for every instant of a window whether the demanded margins are kept. An interval is
+/// Decides for every instant of a span whether the demanded margins are kept. An interval is
 /// settled by its midpoint and a bound on the motion around it, else bisected; what is still open
 /// at the resolution is undecided. Feasible is a proof; violated has a witness; a walk that keeps
 /// every margin with a little to spare is never undecided at a fine enough resolution. Intervals
@@ -45,7 +45,7 @@ class CertifiedFeasibility : public FeasibilityTest {
   std::unique_ptr<FeasibilityTest> Over(const MarginEvaluator& evaluator) const override {
     return std::make_unique<CertifiedFeasibility>(evaluator, options_, scope_);
   }
-  Feasibility Check(const SuperposedWalk& walk, const TimeWindow& window,
+  Feasibility Check(const SuperposedWalk& walk, const TimeSpan& span,
                     MarginEvaluator::Scratch* scratch) const override;
 
   /// Decides the whole walk and keeps the proof: `certificate` has the rows that were proved before
@@ -62,7 +62,7 @@ class CertifiedFeasibility : public FeasibilityTest {
   struct Open;
   struct Settled;
 
-  Feasibility Decide(const SuperposedWalk& walk, const TimeWindow& window,
+  Feasibility Decide(const SuperposedWalk& walk, const TimeSpan& span,
                      MarginEvaluator::Scratch* scratch, Certificate* certificate,
                      const std::stop_token& stop) const;
 
@@ -79,15 +79,15 @@ class CertifiedFeasibility : public FeasibilityTest {
   OpenGroups all_;  // of the scope
 };
 
-/// Extends a window on either side to the next knot (KnotsInside). A changed overlap moves knots,
+/// Extends a span on either side to the next knot (KnotsInside). A changed overlap moves knots,
 /// and the intervals beside a moved knot are cut anew. Every check includes these, so a walk whose
-/// windows were proved one after the other is proved as a whole, by the same intervals. A window
+/// spans were proved one after the other is proved as a whole, by the same intervals. A span
 /// that begins and ends where half-steps begin, or the walk ends, is returned unchanged, since
 /// intervals were cut anew only within it.
-TimeWindow ExtendedToKnots(const SuperposedWalk& walk, const TimeWindow& window);
+TimeSpan ExtendedToKnots(const SuperposedWalk& walk, const TimeSpan& span);
 
-/// Instants strictly inside a window at which a foot lands or lifts off, starts or stops moving
+/// Instants strictly inside a span at which a foot lands or lifts off, starts or stops moving
 /// horizontally, or a half-step begins or ends, in order [s].
-std::vector<double> KnotsInside(const SuperposedWalk& walk, const TimeWindow& window);
+std::vector<double> KnotsInside(const SuperposedWalk& walk, const TimeSpan& span);
 
 }  // namespace halfstep

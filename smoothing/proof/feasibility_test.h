@@ -21,7 +21,7 @@ std::string_view Name(Evidence evidence);  ///< "sampled" or "certified".
 enum class Verdict { kFeasible, kViolated, kUndecided };
 
 /// Absolute times [s] of a walk, begin ≤ end.
-struct TimeWindow {
+struct TimeSpan {
   double begin = 0.0;  ///< [s]
   double end = 0.0;    ///< [s]
 };
@@ -35,7 +35,7 @@ struct Feasibility {
   bool stopped = false;  ///< undecided because the check was told to stop
 };
 
-/// Whether a walk meets every demanded margin on a window of time. The scratch's stop token is
+/// Whether a walk meets every demanded margin on a span of time. The scratch's stop token is
 /// polled; a check that is stopped is undecided.
 class FeasibilityTest {
  public:
@@ -49,8 +49,8 @@ class FeasibilityTest {
   virtual StopBranches stop_branches() const { return StopBranches::kNone; }
   /// The same kind of test with the demands of another evaluator.
   virtual std::unique_ptr<FeasibilityTest> Over(const MarginEvaluator& evaluator) const = 0;
-  /// Decides the absolute times of `window`.
-  virtual Feasibility Check(const SuperposedWalk& walk, const TimeWindow& window,
+  /// Decides the absolute times of `span`.
+  virtual Feasibility Check(const SuperposedWalk& walk, const TimeSpan& span,
                             MarginEvaluator::Scratch* scratch) const = 0;
 };
 

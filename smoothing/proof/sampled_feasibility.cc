@@ -11,13 +11,12 @@
 namespace halfstep {
 namespace {
 
-// Instants 0 … n of a window, evenly spaced by at most `period`.
+// Instants 0 … n of a span, evenly spaced by at most `period`.
 struct Grid {
-  Grid(const TimeWindow& window, double period)
-      : begin(window.begin),
-        n(std::max<long>(
-            1, static_cast<long>(std::ceil((window.end - window.begin) / period - 1e-9)))),
-        step((window.end - window.begin) / static_cast<double>(n)) {}
+  Grid(const TimeSpan& span, double period)
+      : begin(span.begin),
+        n(std::max<long>(1, static_cast<long>(std::ceil((span.end - span.begin) / period - 1e-9)))),
+        step((span.end - span.begin) / static_cast<double>(n)) {}
   double at(long i) const { return begin + step * static_cast<double>(i); }
 
   double begin;
@@ -42,9 +41,9 @@ std::string SampledFeasibility::Description() const {
   return out.str();
 }
 
-Feasibility SampledFeasibility::Check(const SuperposedWalk& walk, const TimeWindow& window,
+Feasibility SampledFeasibility::Check(const SuperposedWalk& walk, const TimeSpan& span,
                                       MarginEvaluator::Scratch* scratch) const {
-  const Grid grid(window, period_);
+  const Grid grid(span, period_);
   // Every 16th instant first, then the ones half-way, and so on: a violation that lasts is met
   // early.
   constexpr long kCoarsest = 16;

@@ -7,7 +7,7 @@
 
 namespace halfstep {
 
-/// Checks margins at instants no more than `period` apart, both ends of the window included, widely
+/// Checks margins at instants no more than `period` apart, both ends of the span included, widely
 /// spaced ones first. Feasible means that margins are kept at these instants; it says nothing about
 /// the motion between them.
 class SampledFeasibility : public FeasibilityTest {
@@ -21,7 +21,7 @@ class SampledFeasibility : public FeasibilityTest {
   std::unique_ptr<FeasibilityTest> Over(const MarginEvaluator& evaluator) const override {
     return std::make_unique<SampledFeasibility>(evaluator, period_);
   }
-  Feasibility Check(const SuperposedWalk& walk, const TimeWindow& window,
+  Feasibility Check(const SuperposedWalk& walk, const TimeSpan& span,
                     MarginEvaluator::Scratch* scratch) const override;
 
  private:

@@ -25,21 +25,20 @@ std::unique_ptr<FeasibilityTest> StoppableFeasibility::Over(
   return std::make_unique<StoppableFeasibility>(test_->Over(evaluator), branches_);
 }
 
-Feasibility StoppableFeasibility::Check(const SuperposedWalk& walk, const TimeWindow& window,
+Feasibility StoppableFeasibility::Check(const SuperposedWalk& walk, const TimeSpan& span,
                                         MarginEvaluator::Scratch* scratch) const {
-  const Feasibility answer = test_->Check(walk, window, scratch);
-  return answer.verdict == Verdict::kFeasible ? CheckBranches(walk, window, scratch) : answer;
+  const Feasibility answer = test_->Check(walk, span, scratch);
+  return answer.verdict == Verdict::kFeasible ? CheckBranches(walk, span, scratch) : answer;
 }
 
-Feasibility StoppableFeasibility::CheckBranches(const SuperposedWalk& walk,
-                                                const TimeWindow& window,
+Feasibility StoppableFeasibility::CheckBranches(const SuperposedWalk& walk, const TimeSpan& span,
                                                 MarginEvaluator::Scratch* scratch) const {
   Feasibility answer{.verdict = Verdict::kFeasible, .evidence = evidence(), .witness = {}};
   for (int k = 0; k + 1 < walk.num_half_steps(); ++k) {
     if (answer.verdict != Verdict::kFeasible) return answer;
     if (!Demands(branches_, walk.half_step(k).kind)) continue;
-    const TimeWindow rest{walk.start_of(k + 1), walk.end_of(k)};
-    if (rest.begin < window.begin || rest.begin > window.end || rest.end <= rest.begin) continue;
+    const TimeSpan rest{walk.start_of(k + 1), walk.end_of(k)};
+    if (rest.begin < span.begin || rest.begin > span.end || rest.end <= rest.begin) continue;
     answer = test_->Check(walk.StopBranch(k), rest, scratch);
     answer.witness.stop_after = k;
   }

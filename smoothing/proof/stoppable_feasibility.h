@@ -10,8 +10,8 @@ namespace halfstep {
 /// Demands of a walk what another test demands, and the same of its stop branches: that at any time
 /// the robot may begin nothing more and come to rest with every margin kept. Of the branch after
 /// half-step k only [t_{k+1}, e_k] is checked, since it is the walk itself before; a check of a
-/// window includes the branches whose t_{k+1} lies in it, both ends included. So walks whose
-/// windows were checked one after the other have been checked as a whole.
+/// span includes the branches whose t_{k+1} lies in it, both ends included. So walks whose
+/// spans were checked one after the other have been checked as a whole.
 /// Source: smoothing/README.md, "Stop branches".
 class StoppableFeasibility : public FeasibilityTest {
  public:
@@ -25,10 +25,10 @@ class StoppableFeasibility : public FeasibilityTest {
   StopBranches stop_branches() const override { return branches_; }
   std::unique_ptr<FeasibilityTest> Over(const MarginEvaluator& evaluator) const override;
   /// The witness says whether it is of a branch (Margin::stop_after).
-  Feasibility Check(const SuperposedWalk& walk, const TimeWindow& window,
+  Feasibility Check(const SuperposedWalk& walk, const TimeSpan& span,
                     MarginEvaluator::Scratch* scratch) const override;
   /// The same of the branches alone, for a walk that the test is known to accept itself.
-  Feasibility CheckBranches(const SuperposedWalk& walk, const TimeWindow& window,
+  Feasibility CheckBranches(const SuperposedWalk& walk, const TimeSpan& span,
                             MarginEvaluator::Scratch* scratch) const;
 
  private:

@@ -75,13 +75,13 @@ std::vector<Margin> StretchProofs::Refusals(const SuperposedWalk& walk,
     std::optional<Margin> refusal;
     const double T = walk.tracks(k).duration();
     const bool last = k + 1 == walk.num_half_steps();
-    const TimeWindow window{walk.start_of(k), last ? walk.duration() : walk.start_of(k + 1)};
+    const TimeSpan span{walk.start_of(k), last ? walk.duration() : walk.start_of(k + 1)};
     for (const double fraction : stretch.suspects) {
-      if (walk.start_of(k) + fraction * T > window.end || refusal) continue;
+      if (walk.start_of(k) + fraction * T > span.end || refusal) continue;
       refusal = test_.evaluator().FirstViolation(walk, {k, fraction * T}, scratch);
     }
     if (!refusal) {
-      const Feasibility answer = test_.Check(walk, window, scratch);
+      const Feasibility answer = test_.Check(walk, span, scratch);
       if (answer.verdict == Verdict::kFeasible) {
         Keep(std::move(key), &stretch);
         continue;

@@ -51,6 +51,14 @@ std::array<Foothold, 2> StanceAfter(const HalfStepSequence& sequence, int last) 
   return feet;
 }
 
+HalfStepSequence PlannedPart(const HalfStepSequence& sequence, int begin, int end) {
+  HalfStepSequence part{.start = begin == 0 ? sequence.start : StanceAfter(sequence, begin - 1),
+                        .half_steps = {},
+                        .model = sequence.model};
+  part.half_steps.assign(sequence.half_steps.begin() + begin, sequence.half_steps.begin() + end);
+  return part;
+}
+
 WalkPlan Delayed(const WalkPlan& walk, int last, double begin) {
   HALFSTEP_CHECK(last >= 0 && last + 1 < walk.sequence.size(), "half-step " << last);
   WalkPlan delayed = walk;

@@ -30,6 +30,9 @@ double AgreeUntil(const SuperposedWalk& a, const SuperposedWalk& b);
 /// Where the feet stand, by Index(Side), when half-step `last` has ended; the swing foot of an up
 /// half-step stands where it will land as planned.
 std::array<Foothold, 2> StanceAfter(const HalfStepSequence& sequence, int last);
+/// Half-steps `begin` … `end` − 1 by themselves, as they are planned: steps, from rest to rest.
+/// Precondition: both are even, 0 ≤ begin < end ≤ n.
+HalfStepSequence PlannedPart(const HalfStepSequence& sequence, int begin, int end);
 
 /// The walk in which half-step `last` + 1 begins at `begin` [s], and everything after it as much
 /// later. It agrees with `walk` until the earlier of both beginnings. Throws std::logic_error

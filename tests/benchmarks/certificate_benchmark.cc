@@ -116,7 +116,7 @@ void CertificateRows(benchmark::State& state) {
 }
 BENCHMARK(CertificateRows)->Arg(50)->Unit(benchmark::kMillisecond);
 
-// One overlap changed: only its window, junction after junction.
+// One overlap changed: only its span, junction after junction.
 void CertifyOneWindow(benchmark::State& state) {
   const SmoothedWalk& among = Among(static_cast<int>(state.range(0)));
   const CertifiedFeasibility test(*among.evaluator, {});
@@ -124,8 +124,8 @@ void CertifyOneWindow(benchmark::State& state) {
   const SuperposedWalk& walk = *among.walk;
   int junction = 0;
   for (auto _ : state) {
-    const TimeWindow window{walk.start_of(junction + 1), walk.end_of(junction)};
-    benchmark::DoNotOptimize(test.Check(walk, window, &scratch));
+    const TimeSpan span{walk.start_of(junction + 1), walk.end_of(junction)};
+    benchmark::DoNotOptimize(test.Check(walk, span, &scratch));
     junction = (junction + 1) % (kHalfSteps - 1);
   }
   state.counters["instants"] =

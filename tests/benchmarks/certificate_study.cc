@@ -60,7 +60,7 @@ void Walks(long walks, unsigned seed, const std::string& name, bool all) {
   const RobotModel robot = RobotNamed(name);
   MarginLimits limits;
   limits.demanded_of(MarginFamily::kFloor) *= std::min(1.0, LegScale(robot));
-  limits.clearance_horizon = 0.05;  // farther ones do not matter here
+  limits.clearance_cap = 0.05;  // farther ones do not matter here
   WalkDraw draw(seed);
   long false_certified = 0, full = 0, plans = 0, bad_rows = 0, undecided_after_all = 0;
   double certify_s = 0, sample_s = 0;
@@ -77,10 +77,10 @@ void Walks(long walks, unsigned seed, const std::string& name, bool all) {
     half_steps += walk.num_half_steps();
     const MarginEvaluator evaluator(robot, drawn->scene, limits);
     const CertifiedFeasibility test(evaluator, {});
-    const TimeWindow window{0.0, walk.duration()};
+    const TimeSpan span{0.0, walk.duration()};
     MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
     const double begin = Now();
-    const Feasibility answer = test.Check(walk, window, &scratch);
+    const Feasibility answer = test.Check(walk, span, &scratch);
     certify_s += Now() - begin;
     scratch = evaluator.MakeScratch();
     const double slack = LeastSlack(evaluator, walk, &scratch);
@@ -97,7 +97,7 @@ void Walks(long walks, unsigned seed, const std::string& name, bool all) {
         ++full;
         const double start = Now();
         const SampledFeasibility dense(evaluator, 5e-5);
-        false_certified += dense.Check(walk, window, &scratch).verdict != Verdict::kFeasible;
+        false_certified += dense.Check(walk, span, &scratch).verdict != Verdict::kFeasible;
         sample_s += Now() - start;
       }
     }

@@ -58,7 +58,7 @@ class DynamicProgram {
   /// The parameters that the indices stand for.
   HomotopyParameters ParametersOf(const Choices& choices, const std::vector<int>& indices) const;
 
-  /// Its counts tell the effort.
+  /// Its counts tell the work.
   const MarginEvaluator::Scratch& scratch() const { return scratch_; }
   long passes() const { return passes_; }  ///< passes over a stretch so far
 

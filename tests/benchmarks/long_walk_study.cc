@@ -63,6 +63,7 @@ void Study(const std::string& method, const std::string& variables, bool arc, in
   OptimizerOptions& optimizer = options.Edit(OptimizerGroup()).options;
   optimizer.deadline = 1e4;
   ParameterChoice& choice = optimizer.program.parameters;
+  choice = {};
   choice.heights = variables.find('h') != std::string::npos;
   choice.durations = variables.find('t') != std::string::npos;
   choice.support_points = variables.find('s') != std::string::npos;

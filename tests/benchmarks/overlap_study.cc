@@ -136,6 +136,7 @@ Case SolveCase(const Experiment& e, const MarginEvaluator& evaluator, const std:
   MethodOptions options;
   OptimizerOptions& optimizer = options.Edit(OptimizerGroup()).options;
   optimizer.program.kind = KindOf(kind);
+  optimizer.program.parameters = {};
   optimizer.program.parameters.heights = variables.find('h') != std::string::npos;
   optimizer.program.parameters.durations = variables.find('t') != std::string::npos;
   optimizer.deadline = deadline;
@@ -322,8 +323,7 @@ void Threads(const std::string& what, const std::string& method, int threads) {
   const CertifiedFeasibility test(evaluator, {});
   MethodOptions options;
   OptimizerOptions& optimizer = options.Edit(OptimizerGroup()).options;
-  optimizer.program.parameters.heights = true;
-  optimizer.program.parameters.durations = true;
+  optimizer.program.parameters = {.heights = true, .durations = true};
   optimizer.rounds = 12;
   optimizer.deadline = 1e4;
   std::vector<SmoothingResult> results;

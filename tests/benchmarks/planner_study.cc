@@ -158,7 +158,8 @@ void StudySwept(const Scenario& scenario, const std::string& planner, const Swep
       return certifier.Certifies(up, X_WS);
     };
     std::mt19937_64 random(static_cast<std::uint64_t>(seed));
-    const PlanResult result = MakePlanner(planner, problem.scene)->Plan(request, random);
+    const PlanResult result =
+        Planners::Standard().Make(planner, problem.scene)->Plan(request, random);
     Record(result, &row);
     if (result.footsteps.empty() || seed > scenario.certified) continue;
     ++row.checked;
@@ -186,7 +187,9 @@ void StudyFlat(const std::string& name, const FlatWorld& world, const Pose2& goa
     Row row;
     for (int seed = 1; seed <= (planner == "rrt" ? runs : 1); ++seed) {
       std::mt19937_64 random(static_cast<std::uint64_t>(seed));
-      Record(MakePlanner(planner, problem.scene)->Plan(RequestFor(problem, set, query), random),
+      Record(Planners::Standard()
+                 .Make(planner, problem.scene)
+                 ->Plan(RequestFor(problem, set, query), random),
              &row);
     }
     Print(name, planner, row);
@@ -201,11 +204,11 @@ int main(int argc, char** argv) {
   // Names of planners choose among the planners, others among the scenarios; none: all.
   std::vector<std::string> planners, scenario_names;
   for (const std::string& name : chosen) {
-    const std::vector<std::string> all = PlannerNames();
+    const std::vector<std::string> all = Planners::Standard().Names();
     (std::find(all.begin(), all.end(), name) != all.end() ? planners : scenario_names)
         .push_back(name);
   }
-  if (planners.empty()) planners = PlannerNames();
+  if (planners.empty()) planners = Planners::Standard().Names();
   const auto wanted = [&names = scenario_names](const std::string& name) {
     return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
   };

@@ -11,7 +11,7 @@ struct ReferenceOptions {
   ParameterChoice parameters;  ///< searched beside the overlaps
   double period = 0.01;        ///< between the instants at which the grid is checked [s] > 0
   /// When overlaps alone are searched: number of values of each, from 0 to the natural bound, that
-  /// are tried in every combination before the corridor; 0: no such round. Effort grows with its
+  /// are tried in every combination before the corridor; 0: no such round. Work grows with its
   /// fourth power.
   int global_values = 10;
   double widest = 0.1;       ///< first step of the corridor: Δ [s], T and η relative

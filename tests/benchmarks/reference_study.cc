@@ -68,7 +68,7 @@ int main(int argc, char** argv) {
   if (argc > 1 && std::string(argv[1]) == "run") {
     halfstep::Methods methods = halfstep::Methods::Standard();
     halfstep::AddReferenceSmoothers(&methods);
-    return halfstep::RunExperiment(argc, argv, methods);
+    return halfstep::RunExperiment(argc, argv, {methods});
   }
   if (argc != 4) {
     std::fprintf(stderr, "usage: reference_study CONFIG METHOD VARIABLES | run CONFIG...\n");

@@ -105,7 +105,7 @@ TEST(Comparison, FailureCountsAsTenTimesTheSlowestSuccess) {
   EXPECT_EQ(means[1].certified, 1);
   EXPECT_EQ(means[1].failed(), 1);
   // In a 2 s; in b 10 · 0.25 s.
-  EXPECT_NEAR(means[1].effort[1].wall, std::sqrt(2.1 * 2.6) - 0.1, 1e-12);
+  EXPECT_NEAR(means[1].work[1].wall, std::sqrt(2.1 * 2.6) - 0.1, 1e-12);
   EXPECT_NEAR(means[1].speedup, std::sqrt(1.6 * 1.0), 1e-12);
 }
 
@@ -126,7 +126,7 @@ TEST(Comparison, OrderOfRunsChangesNoFigure) {
   for (size_t i = 0; i < before.size(); ++i) {
     EXPECT_EQ(before[i].method, after[i].method);
     EXPECT_EQ(before[i].solved, after[i].solved);
-    EXPECT_NEAR(before[i].effort[1].wall, after[i].effort[1].wall, 1e-12);
+    EXPECT_NEAR(before[i].work[1].wall, after[i].work[1].wall, 1e-12);
   }
 }
 

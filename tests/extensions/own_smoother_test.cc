@@ -198,7 +198,7 @@ TEST(OwnSmoother, ALieOrAnExceptionShowsInTheRunAndTheOthersAreWritten) {
   const RunHooks hooks{.progress = [](const std::string&, double) {}, .stop = {}};
   ExperimentRun run(
       LoadConfig(config, {{"smoothing.methods", "[mine/throws, mine/lies, mine/lax, dichotomy]"}},
-                 methods),
+                 {methods}),
       hooks);
   run.Smooth(hooks);
   run.Certify({});

@@ -10,7 +10,7 @@
 #include "opt/adapters/function_solver.h"
 #include "opt/adapters/solver_registry.h"
 #include "opt/problem/derivative_check.h"
-#include "planner/search/planner_registry.h"
+#include "planner/search/planners.h"
 #include "smoothing/methods/methods.h"
 #include "smoothing/methods/solver_method_options.h"
 #include "smoothing/program/overlap_program.h"
@@ -41,7 +41,7 @@ class PlanAsItIs : public Smoother {
 ExperimentConfig WithOptions(const std::vector<YamlOverride>& overrides,
                              const Methods& methods = Methods::Standard()) {
   return LoadConfig(HALFSTEP_SOURCE_DIR "/experiments/configs/fig3_two_half_steps.yaml", overrides,
-                    methods);
+                    {methods});
 }
 
 TEST(OwnMethods, AreNamedByConfigs) {
@@ -123,14 +123,25 @@ class NoPlan : public FootstepPlanner {
   }
 };
 
-TEST(RegisterPlanner, MakesAPlannerThatConfigsName) {
-  const auto make = [](const Scene&, const PlannerOptions&) { return std::make_unique<NoPlan>(); };
-  EXPECT_THROW(RegisterPlanner("rrt", make), std::invalid_argument);
-  RegisterPlanner("mine/none", make);
-  RegisterPlanner("mine/none", make);
-  EXPECT_EQ(std::ranges::count(PlannerNames(), "mine/none"), 1);
-  EXPECT_NE(dynamic_cast<NoPlan*>(MakePlanner("mine/none", {}).get()), nullptr);
-  EXPECT_THROW(MakePlanner("mine/other", {}), std::logic_error);
+TEST(OwnPlanner, IsNamedByConfigs) {
+  const PlannerFactory make = [](const Scene&, const PlannerOptions&) {
+    return std::make_unique<NoPlan>();
+  };
+  Planners planners = Planners::Standard();
+  EXPECT_THROW(planners.Add({"rrt", "", make}), std::invalid_argument);
+  planners.Add({"mine/none", "first", make});
+  planners.Add({"mine/none", "second", make});
+  EXPECT_EQ(std::ranges::count(planners.Names(), "mine/none"), 1);
+  EXPECT_EQ(planners.all().back().meaning, "second");
+  EXPECT_NE(dynamic_cast<NoPlan*>(planners.Make("mine/none", {}).get()), nullptr);
+  EXPECT_THROW(planners.Make("mine/other", {}), std::logic_error);
+  EXPECT_EQ(std::ranges::count(Planners::Standard().Names(), "mine/none"), 0);
+
+  const std::string config = HALFSTEP_SOURCE_DIR "/experiments/configs/plan_bar_8cm.yaml";
+  const std::vector<YamlOverride> named = {{"planner.name", "mine/none"}};
+  EXPECT_THROW(LoadConfig(config, named), InputError);
+  const PlannerConfig planner = LoadConfig(config, named, {.planners = planners}).planner;
+  EXPECT_NE(dynamic_cast<NoPlan*>(planner.known.Make(planner.name, {}).get()), nullptr);
 }
 
 // Σ T², so that a long half-step costs more than two short ones.

@@ -1,6 +1,6 @@
 // Names of methods, planners and programs for the readers of configs, without what they name.
 
-#include "planner/search/planner_registry.h"
+#include "planner/search/planners.h"
 #include "smoothing/methods/dichotomy.h"
 #include "smoothing/methods/horizon.h"
 #include "smoothing/methods/methods.h"
@@ -39,7 +39,9 @@ Methods Methods::Standard() {
        std::make_shared<NoMethod>("halfstep/horizon", Groups{HorizonGroup(), OptimizerGroup()})});
 }
 
-std::vector<std::string> PlannerNames() { return {"rrt", "astar", "bounding_box"}; }
+Planners Planners::Standard() {
+  return Planners({{"rrt", "", {}}, {"astar", "", {}}, {"bounding_box", "", {}}});
+}
 
 std::string_view Name(ProgramKind kind) {
   return kind == ProgramKind::kFastest  ? "fastest"

@@ -104,9 +104,9 @@ TEST(EpisodeTest, CanBeStoppedAtAnyMoment) {
     const CertifiedFeasibility test(evaluator, config.smoothing.certification);
     MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
     const SuperposedWalk branch = executed.StopBranch(begun.half_step);
-    const TimeWindow window{std::max(grant.proved_at, branch.start_of(begun.half_step)),
-                            branch.duration()};
-    EXPECT_EQ(test.Check(branch, window, &scratch).verdict, Verdict::kFeasible)
+    const TimeSpan span{std::max(grant.proved_at, branch.start_of(begun.half_step)),
+                        branch.duration()};
+    EXPECT_EQ(test.Check(branch, span, &scratch).verdict, Verdict::kFeasible)
         << "half-step " << begun.half_step + 1;
     EXPECT_LE(grant.version, episode.worlds.back().version);
     EXPECT_GE(grant.through, begun.half_step);

@@ -280,7 +280,7 @@ Tally Judge::JudgeOne(SceneKind kind, unsigned seed, const std::string& folder,
   drawn.falsehoods = falsehoods;
   drawn.plan = DrawPlan(plain_, &draw);
   drawn.plain_scene = DrawNastyScene(kind, drawn.plan, plain_.size(), &draw);
-  drawn.limits.clearance_horizon = 0.05;
+  drawn.limits.clearance_cap = 0.05;
   if (draw.Chance(0.5)) {
     drawn.limits.demanded_of(MarginFamily::kClearance) = draw.Uniform(0, 0.02);
     drawn.limits.demanded_of(MarginFamily::kFloor) = 0.01 * plain_.size() * draw.Uniform(0, 1);

@@ -100,13 +100,13 @@ TEST(TriangleSurface, InBlocksIsAsFarAsInOneAndBuildsOnlyWhatIsNear) {
   for (int k = 0; k < 60; ++k) {
     X.linear() = draw.Turn(false);
     X.translation() = draw.Point({-10, -10, 0}, {10, 10, 1});
-    const double horizon = draw.Uniform(0.05, 1);
+    const double cap = draw.Uniform(0.05, 1);
     const auto a = TriangleSurface::Distance(body, X, X.translation(), box.radius, whole,
                                              Isometry3d::Identity(), 100);
     const auto b = TriangleSurface::Distance(body, X, X.translation(), box.radius, blocks,
-                                             Isometry3d::Identity(), horizon);
+                                             Isometry3d::Identity(), cap);
     ASSERT_TRUE(a);
-    if (a->distance < horizon) {
+    if (a->distance < cap) {
       ASSERT_TRUE(b) << a->distance;
       EXPECT_EQ(b->distance, a->distance) << "the same bits";
       ++found;
@@ -130,14 +130,14 @@ TEST(CollisionWorld, AmongHundredsTheNearestIsTheSmallestOfAllAtEveryTime) {
     Isometry3d X = Isometry3d::Identity();
     X.linear() = draw.Turn(false);
     X.translation() = draw.Point({-3, -3, 0.5}, {3, 3, 1.5});
-    const double t = draw.Uniform(0, 4), horizon = draw.Uniform(0.05, 1);
-    double least = horizon;
+    const double t = draw.Uniform(0, 4), cap = draw.Uniform(0.05, 1);
+    double least = cap;
     for (size_t i = 0; i < shapes.size(); ++i) {
       const Obstacle& o = scene.obstacles[i];
       least =
           std::min(least, Separate(body, X, shapes[i], o.PoseAt(t)).distance - o.UncertaintyAt(t));
     }
-    const CollisionWorld::Nearest nearest = world.FindNearest(body, X, t, horizon);
+    const CollisionWorld::Nearest nearest = world.FindNearest(body, X, t, cap);
     EXPECT_EQ(nearest.margin, least);
     found += nearest.obstacle >= 0;
     const double demanded = 0.02;

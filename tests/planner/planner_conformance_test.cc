@@ -8,7 +8,7 @@
 #include <stop_token>
 #include <string>
 
-#include "planner/search/planner_registry.h"
+#include "planner/search/planners.h"
 #include "tests/planner/flat_world.h"
 
 namespace halfstep {
@@ -20,7 +20,7 @@ struct Bench {
       : set(PlausibleSet()),
         query(set, world),
         scene(world.ToScene()),
-        planner(MakePlanner(name, scene)) {}
+        planner(Planners::Standard().Make(name, scene)) {}
 
   PlanRequest Request(const Pose2& goal, double radius = 0.1) {
     PlanRequest request{
@@ -301,7 +301,7 @@ TEST_P(PlannerConformance, StepsOverARingUnlessItIsABox) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, PlannerConformance, testing::ValuesIn(PlannerNames()),
+INSTANTIATE_TEST_SUITE_P(All, PlannerConformance, testing::ValuesIn(Planners::Standard().Names()),
                          [](const auto& test) {
                            std::string name = test.param;
                            for (char& c : name) c = c == '/' ? '_' : c;

@@ -204,7 +204,7 @@ TEST(QueryOracle, ACollisionWorldCullsNothingThatIsNear) {
       EXPECT_TRUE(world.Clears(ball, X_WB, 0.0, distance - 1e-6, &scratch));
     }
   }
-  // A small ball deep inside is found below a negative horizon, too.
+  // A small ball deep inside is found below a negative cap, too.
   const CollisionShape small(MakeSphere(0.001));
   const Isometry3d inside = Posed(Eigen::Matrix3d::Identity(), {3.0, -2.0, 0.5});
   const auto nearest = world.FindNearest(small, inside, 0.0, -0.01);

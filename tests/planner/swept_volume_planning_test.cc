@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "planner/search/planner_registry.h"
+#include "planner/search/planners.h"
 #include "tests/planner/swept_volume_draws.h"
 
 namespace halfstep {
@@ -31,7 +31,7 @@ PlanResult PlanBetween(const SweptVolumes& volumes, const Scene& scene, const ch
   request.goal.radius = 0.2;
   request.stop = AnyOf({AfterNodes(2000), WhenNotImprovedFor(300)});
   std::mt19937_64 random(seed);
-  return MakePlanner(planner, scene)->Plan(request, random);
+  return Planners::Standard().Make(planner, scene)->Plan(request, random);
 }
 
 void ExpectEqual(const PlanResult& a, const PlanResult& b) {

@@ -49,6 +49,34 @@ class Smoothers(unittest.TestCase):
             self.assertEqual(run.methods, ["raw", "mine/scale"])
             self.assertTrue(all(run.verify()))
 
+    def test_it_has_options_of_its_own(self):
+        seen = []
+        hs.register_smoother("mine/options", lambda problem: seen.append(problem.options), options={
+            "share": {"default": 0.5, "min": 0, "max": 1, "meaning": "of every overlap"},
+            "passes": 3, "backwards": False, "order": {"default": "near", "choices": ["near", "far"]}})
+        self.addCleanup(hs.register_smoother, "mine/options", print)
+        config = hs.load_config("fig3_two_half_steps", smoothing__methods=["mine/options"])
+        self.assertEqual(config["smoothing"]["own"]["mine/options"],
+                         {"share": 0.5, "passes": 3, "backwards": False, "order": "near"})
+        experiment = hs.Experiment(config)
+        experiment.smooth("mine/options")
+        experiment.smooth("mine/options", share=0.25, order="far")
+        self.assertEqual(seen, [
+            {"share": 0.5, "passes": 3, "backwards": False, "order": "near"},
+            {"share": 0.25, "passes": 3, "backwards": False, "order": "far"}])
+        for own, refusal in (({"share": 2}, "own.mine/options.share: 2 is out of range"),
+                             ({"passes": 1.5}, "own.mine/options.passes: "),
+                             ({"order": "up"}, "own.mine/options.order: "),
+                             ({"shares": 1}, "own.mine/options.shares: unknown key")):
+            config["smoothing"]["own"] = {"mine/options": own}
+            with self.assertRaisesRegex(hs.InputError, rf":\d+:\d+: smoothing.{refusal}"):
+                hs.Experiment(config)
+        config["smoothing"]["own"] = {"mine/options": {"share": 0.125}}
+        with tempfile.TemporaryDirectory() as place:
+            run = hs.Experiment(config).run(os.path.join(place, "run"))
+            self.assertEqual(run.manifest["methods"][1]["requested"]["own"]["share"], 0.125)
+        self.assertEqual(seen[-1]["share"], 0.125)
+
     def test_nothing_unproved_is_accepted(self):
         answers = []
 

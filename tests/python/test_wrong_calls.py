@@ -135,6 +135,17 @@ CALLS = [
     (INPUT, "name: 'a b'", lambda: hs.register_smoother("a b", print)),
     (TypeError, "name: int", lambda: hs.register_solver(1, print)),
     (TypeError, "meaning: int", lambda: hs.register_smoother("mine/a", print, 3)),
+    (TypeError, "options: int", lambda: hs.register_smoother("mine/a", print, options=3)),
+    (INPUT, "options: 'a b'", lambda: hs.register_smoother("mine/a", print, options={"a b": 1})),
+    (INPUT, "tilt_deg", lambda: hs.register_smoother("mine/a", print, options={"tilt_deg": 1.0})),
+    (INPUT, "options: a: 'most'", lambda: hs.register_smoother(
+        "mine/a", print, options={"a": {"default": 1, "most": 2}})),
+    (INPUT, "options: a: default 3 (valid: from 0 to 2)", lambda: hs.register_smoother(
+        "mine/a", print, options={"a": {"default": 3, "min": 0, "max": 2}})),
+    (INPUT, "options: a: default 'x' (valid: y)", lambda: hs.register_smoother(
+        "mine/a", print, options={"a": {"default": "x", "choices": ["y"]}})),
+    (TypeError, "options: a: default: NoneType", lambda: hs.register_smoother(
+        "mine/a", print, options={"a": {"unit": "s"}})),
     # text that UTF-8 cannot hold
     (INPUT, "robot: character 2 is half", lambda: hs.Robot("a\udcff")),
     (INPUT, "scene: character 1 is half", lambda: hs.Scene("\udcff.yaml")),

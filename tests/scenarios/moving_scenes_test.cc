@@ -236,7 +236,7 @@ TEST(MovingScenes, AStatedSpeedKeepsTheWalkClearAndAnUnderstatedOneDoesNot) {
   Obstacle ball{.name = "ball", .shape = Sphere{0.05}};
   ball.X_WO.translation() = Eigen::Vector3d(0.3, -0.8, 0.7);
   e.scene.obstacles.push_back(ball);
-  e.config.smoothing.limits.clearance_horizon = 2.0;
+  e.config.smoothing.limits.clearance_cap = 2.0;
   const HomotopyParameters planned = PlannedMotion(e.sequence);
   // 2 cm more than it may come near during the planned motion.
   const double spare = LeastClearance(e, e.scene, planned) - kStated * DurationOf(planned) - 0.02;

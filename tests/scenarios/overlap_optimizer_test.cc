@@ -340,13 +340,13 @@ class RefusesNewWholes : public FeasibilityTest {
   std::string Description() const override { return "refuses new wholes"; }
   const MarginEvaluator& evaluator() const override { return certified_.evaluator(); }
   std::unique_ptr<FeasibilityTest> Over(const MarginEvaluator&) const override { return nullptr; }
-  Feasibility Check(const SuperposedWalk& walk, const TimeWindow& window,
+  Feasibility Check(const SuperposedWalk& walk, const TimeSpan& span,
                     MarginEvaluator::Scratch* scratch) const override {
-    const bool whole = window.begin <= 0.0 && window.end >= walk.duration();
+    const bool whole = span.begin <= 0.0 && span.end >= walk.duration();
     if (whole && walk.parameters().durations != planned_) {
       return {Verdict::kUndecided, Evidence::kCertified, {}};
     }
-    return certified_.Check(walk, window, scratch);
+    return certified_.Check(walk, span, scratch);
   }
 
  private:

@@ -25,8 +25,8 @@ double LargestOverlap(const Experiment& e, const MarginEvaluator& evaluator, Hom
   while (infeasible - feasible > 1e-5) {
     at.overlaps[j] = 0.5 * (feasible + infeasible);
     const SuperposedWalk walk(e.sequence, at);
-    const TimeWindow window{walk.start_of(junction), walk.end_of(junction + 1)};
-    const bool holds = test.Check(walk, window, &scratch).verdict == Verdict::kFeasible;
+    const TimeSpan span{walk.start_of(junction), walk.end_of(junction + 1)};
+    const bool holds = test.Check(walk, span, &scratch).verdict == Verdict::kFeasible;
     (holds ? feasible : infeasible) = at.overlaps[j];
   }
   return feasible;

@@ -49,11 +49,11 @@ TEST_F(PlanRepairTest, AStepTooFastTakesLongerAndNoOtherDoes) {
   ASSERT_TRUE(repair.failures.empty()) << repair.failures.front();
   ASSERT_EQ(repair.steps.size(), 1u);
   EXPECT_EQ(repair.steps[0].step, 1);
-  EXPECT_GT(repair.steps[0].duration, 1.2);
-  EXPECT_LT(repair.steps[0].duration, 2.1);
+  EXPECT_GT(*repair.steps[0].duration, 1.2);
+  EXPECT_LT(*repair.steps[0].duration, 2.1);
   EXPECT_TRUE(Feasible(repair.sequence));
   HalfStepSequence shorter = repair.sequence;  // it takes no longer than it must
-  SetStep(1, 0.97 * repair.steps[0].duration, repair.steps[0].via_height, &shorter);
+  SetStep(1, 0.97 * *repair.steps[0].duration, *repair.steps[0].via_height, &shorter);
   EXPECT_FALSE(Feasible(shorter));
 }
 
@@ -65,7 +65,7 @@ TEST_F(PlanRepairTest, AStepTooLowOverTheBarGoesHigher) {
   ASSERT_TRUE(repair.failures.empty()) << repair.failures.front();
   ASSERT_EQ(repair.steps.size(), 1u);
   EXPECT_EQ(repair.steps[0].step, 0);
-  EXPECT_GT(repair.steps[0].via_height, 0.15);
+  EXPECT_GT(*repair.steps[0].via_height, 0.15);
   EXPECT_TRUE(Feasible(repair.sequence));
 }
 

@@ -14,8 +14,8 @@ namespace {
 class SampledFeasibilityTest : public testing::Test {
  protected:
   // Check over the whole walk with `demanded` of one family and nothing of the others.
-  Feasibility CheckFamily(MarginFamily family, double demanded, double period,
-                          const TimeWindow& window, long* instants) const {
+  Feasibility CheckFamily(MarginFamily family, double demanded, double period, const TimeSpan& span,
+                          long* instants) const {
     MarginLimits limits = experiment_.config.smoothing.limits;
     limits.demanded.fill(-100.0);
     // It is −∞ where the ZMP is outside the support polygon.
@@ -23,7 +23,7 @@ class SampledFeasibilityTest : public testing::Test {
     limits.demanded_of(family) = demanded;
     const MarginEvaluator evaluator(experiment_.robot, experiment_.scene, limits);
     MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
-    const auto answer = SampledFeasibility(evaluator, period).Check(walk_, window, &scratch);
+    const auto answer = SampledFeasibility(evaluator, period).Check(walk_, span, &scratch);
     *instants = scratch.instants;
     return answer;
   }
@@ -36,13 +36,13 @@ class SampledFeasibilityTest : public testing::Test {
 
 TEST_F(SampledFeasibilityTest, FeasibleLooksAtEveryInstantOfTheGridOnceAndNoMore) {
   // 0.1 s by 7 ms: 15 pieces, 16 instants; a whole number of periods is not rounded up.
-  for (const auto& [window, period, count] : {std::tuple{TimeWindow{1.0, 1.1}, 0.007, 16},
-                                              {TimeWindow{1.0, 1.1}, 0.005, 21},
-                                              {TimeWindow{1.0, 1.1}, 1.0, 2},
-                                              {TimeWindow{0.0, 1.0}, 0.005, 201},
-                                              {TimeWindow{0.7, 0.7}, 0.005, 2}}) {
+  for (const auto& [span, period, count] : {std::tuple{TimeSpan{1.0, 1.1}, 0.007, 16},
+                                            {TimeSpan{1.0, 1.1}, 0.005, 21},
+                                            {TimeSpan{1.0, 1.1}, 1.0, 2},
+                                            {TimeSpan{0.0, 1.0}, 0.005, 201},
+                                            {TimeSpan{0.7, 0.7}, 0.005, 2}}) {
     long instants = 0;
-    const auto answer = CheckFamily(MarginFamily::kZmp, -10, period, window, &instants);
+    const auto answer = CheckFamily(MarginFamily::kZmp, -10, period, span, &instants);
     EXPECT_EQ(answer.verdict, Verdict::kFeasible);
     EXPECT_EQ(answer.evidence, Evidence::kSampled);
     EXPECT_EQ(instants, count) << period;
@@ -55,25 +55,25 @@ TEST_F(SampledFeasibilityTest, NoInstantOfTheGridIsLeftOut) {
   for (int i = 0; i < Draws(40); ++i) {
     const double period = 0.005;
     const double begin = draw.Uniform(0, walk_.duration() - 0.5);
-    const TimeWindow window{begin, begin + period * std::floor(draw.Uniform(1, 100))};
-    const long n = std::lround((window.end - window.begin) / period);
+    const TimeSpan span{begin, begin + period * std::floor(draw.Uniform(1, 100))};
+    const long n = std::lround((span.end - span.begin) / period);
     MarginEvaluator::Scratch scratch = evaluator_.MakeScratch();
     Margin least{.family = MarginFamily::kZmp};
     for (long k = 0; k <= n; ++k) {
-      const double t = window.begin + (window.end - window.begin) / static_cast<double>(n) *
-                                          static_cast<double>(k);
+      const double t =
+          span.begin + (span.end - span.begin) / static_cast<double>(n) * static_cast<double>(k);
       const Margin here =
           evaluator_.At(walk_, walk_.Locate(t), &scratch)[static_cast<size_t>(MarginFamily::kZmp)];
       if (here.value < least.value) least = here;
     }
     long instants = 0;
     const auto above =
-        CheckFamily(MarginFamily::kZmp, least.value + 1e-12, period, window, &instants);
+        CheckFamily(MarginFamily::kZmp, least.value + 1e-12, period, span, &instants);
     ASSERT_EQ(above.verdict, Verdict::kViolated);
     EXPECT_NEAR(above.witness.value, least.value, 1e-12);
     EXPECT_LE(instants, n + 1);
     const auto below =
-        CheckFamily(MarginFamily::kZmp, least.value - 1e-12, period, window, &instants);
+        CheckFamily(MarginFamily::kZmp, least.value - 1e-12, period, span, &instants);
     EXPECT_EQ(below.verdict, Verdict::kFeasible);
     EXPECT_EQ(instants, n + 1);
   }
@@ -85,7 +85,7 @@ TEST_F(SampledFeasibilityTest, AViolationOutsideTheWindowDoesNotCount) {
       SampleMargins(evaluator_, walk_, 0.005, &scratch)[static_cast<size_t>(MarginFamily::kZmp)];
   long instants = 0;
   const double demanded = least.value + 1e-4;
-  const TimeWindow at{least.t - 0.01, least.t + 0.01}, before{0.0, 0.3};
+  const TimeSpan at{least.t - 0.01, least.t + 0.01}, before{0.0, 0.3};
   EXPECT_EQ(CheckFamily(MarginFamily::kZmp, demanded, 0.001, at, &instants).verdict,
             Verdict::kViolated);
   EXPECT_EQ(CheckFamily(MarginFamily::kZmp, demanded, 0.001, before, &instants).verdict,

@@ -125,8 +125,8 @@ TEST(StretchProofs, AsksAboutWholeStretchesAndUndecidedIsNoProof) {
     EXPECT_EQ(refused, verdict == Verdict::kFeasible ? 0u : static_cast<size_t>(sequence.size()));
     double covered = 0.0;
     for (const FakeFeasibility::Question& question : test.questions) {
-      EXPECT_EQ(question.window.begin, covered);
-      covered = question.window.end;
+      EXPECT_EQ(question.span.begin, covered);
+      covered = question.span.end;
     }
     EXPECT_EQ(covered, walk.duration());
   }

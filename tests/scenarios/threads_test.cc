@@ -121,7 +121,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, ThreadsTest,
                            return name.substr(name.find('/') + 1);
                          });
 
-// Where a walk is refused the same interval refuses it, and no effort beyond it is counted.
+// Where a walk is refused the same interval refuses it, and no work beyond it is counted.
 TEST(Threads, RefuseWhatOneRefuses) {
   const Experiment e = LoadExperiment("bar_8cm");
   const CertifiedFeasibility test({e.robot, e.scene, e.config.smoothing.limits}, {});
@@ -135,7 +135,7 @@ TEST(Threads, RefuseWhatOneRefuses) {
     MarginEvaluator::Scratch shared = test.evaluator().MakeScratch();
     shared.workers = &workers;
     for (int repeat = 0; repeat < 3; ++repeat) {
-      const TimeWindow all{0.0, walk.duration()};
+      const TimeSpan all{0.0, walk.duration()};
       const Feasibility a = test.Check(walk, all, &alone), b = test.Check(walk, all, &shared);
       ASSERT_EQ(a.verdict, b.verdict);
       EXPECT_EQ(Content(a.witness), Content(b.witness));

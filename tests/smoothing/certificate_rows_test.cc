@@ -21,13 +21,13 @@ namespace {
 // share of it that is never used.
 
 constexpr double kRounding = 1e-9;  // of distances, which are found by iteration
-constexpr double kHorizon = 0.5;    // [m]
+constexpr double kCap = 0.5;        // [m]
 
 // Nothing is demanded, so that every statement holds in the longest interval.
 MarginLimits Undemanding() {
   MarginLimits limits;
   limits.demanded.fill(-1e4);
-  limits.clearance_horizon = kHorizon;
+  limits.clearance_cap = kCap;
   return limits;
 }
 
@@ -127,8 +127,8 @@ CertificateRow RowOf(const MarginEvaluator& evaluator, const SuperposedWalk& wal
 }
 
 // A random interval between two knots of a walk.
-TimeWindow DrawInterval(const SuperposedWalk& walk, WalkDraw* draw) {
-  const TimeWindow whole{0.0, walk.duration()};
+TimeSpan DrawInterval(const SuperposedWalk& walk, WalkDraw* draw) {
+  const TimeSpan whole{0.0, walk.duration()};
   std::vector<double> knots = KnotsInside(walk, whole);
   knots.insert(knots.begin(), whole.begin);
   knots.push_back(whole.end);
@@ -174,7 +174,7 @@ TEST(CertificateRows, HoldForEveryBodyThatMovesTowardsAnObstacle) {
       for (double t : InstantsOf(row, 6)) {
         const Posture posture = SolvePosture(robot, walk.At(t).value);
         const double truth =
-            evaluator.clearances().OfBody(b, posture, 0.0, kHorizon, &scratch.bodies).value;
+            evaluator.clearances().OfBody(b, posture, 0.0, kCap, &scratch.bodies).value;
         tally.Add(row, truth);
         if (row.bound > 1e-5) {
           share[b] = std::max(share[b], (row.margin.value - truth) / row.bound);
@@ -191,7 +191,7 @@ TEST(CertificateRows, HoldForEveryPairOfBodies) {
   const RobotModel robot = Hrp2();
   const MarginEvaluator evaluator(robot, {}, [] {
     MarginLimits limits = Undemanding();
-    limits.clearance_horizon = 3.0;
+    limits.clearance_cap = 3.0;
     return limits;
   }());
   MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
@@ -292,10 +292,10 @@ TEST(CertificateRows, AreGivenWhereTheyKeepWhatIsDemandedAndOnlyThere) {
     for (const MarginFamily family : FamiliesWith({})) {
       const OpenGroups pending = pending_of(family);
       const CertificateRow row = RowOf(undemanding, walk, begin, end, pending);
-      // Where little changes, and where an overlap or the horizon hides the margin, nothing is
+      // Where little changes, and where an overlap or the cap hides the margin, nothing is
       // told.
       if (row.count == 0 || row.bound < 1e-6 || row.margin.value <= 0.0) continue;
-      if (Unit(family) == "m" && row.margin.value >= kHorizon) continue;
+      if (Unit(family) == "m" && row.margin.value >= kCap) continue;
       limits.demanded_of(family) = row.margin.value - 1.01 * row.bound;
       EXPECT_GT(RowOf(undemanding.WithLimits(limits), walk, begin, end, pending).count, 0)
           << Name(family);

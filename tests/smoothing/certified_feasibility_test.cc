@@ -220,7 +220,7 @@ TEST(CertifiedFeasibility, StoppedIsUndecided) {
   }
 }
 
-// What the dichotomy accepted window by window holds for the walk as a whole.
+// What the dichotomy accepted span by span holds for the walk as a whole.
 TEST(CertifiedFeasibility, DichotomyEndsCertified) {
   const RobotModel robot = Hrp2();
   WalkDraw draw(13);
@@ -241,7 +241,7 @@ TEST(CertifiedFeasibility, DichotomyEndsCertified) {
 }
 
 // Lengths of the intervals from knot to knot of a stretch, which certification starts from.
-std::vector<double> Gaps(const SuperposedWalk& walk, const TimeWindow& stretch) {
+std::vector<double> Gaps(const SuperposedWalk& walk, const TimeSpan& stretch) {
   std::vector<double> knots = KnotsInside(walk, stretch);
   knots.insert(knots.begin(), stretch.begin);
   knots.push_back(stretch.end);
@@ -258,8 +258,8 @@ bool StartsWith(const std::vector<double>& all, const std::vector<double>& part)
                     [](double a, double b) { return std::abs(a - b) < 1e-9; });
 }
 
-// Regression: knots move with an overlap, and the intervals beside its window are cut anew. A walk
-// that was proved window by window could then be undecided as a whole.
+// Regression: knots move with an overlap, and the intervals beside its span are cut anew. A walk
+// that was proved span by span could then be undecided as a whole.
 TEST(CertifiedFeasibility, OutsideOfACheckedWindowIntervalsAreTheOldOnes) {
   const RobotModel robot = Hrp2();
   WalkDraw draw(29);
@@ -273,7 +273,7 @@ TEST(CertifiedFeasibility, OutsideOfACheckedWindowIntervalsAreTheOldOnes) {
     walk.SetOverlap(j, 0.5 * overlap);
     const std::vector<double> old_gaps = Gaps(walk, {0.0, walk.duration()});
     walk.SetOverlap(j, overlap);
-    const TimeWindow window{std::nextafter(walk.start_of(j + 1), -1.0), walk.end_of(j)};
+    const TimeSpan span{std::nextafter(walk.start_of(j + 1), -1.0), walk.end_of(j)};
     const auto old_before = [&](double begin) {
       return StartsWith(old_gaps, Gaps(walk, {0.0, begin}));
     };
@@ -283,18 +283,18 @@ TEST(CertifiedFeasibility, OutsideOfACheckedWindowIntervalsAreTheOldOnes) {
       std::reverse(after.begin(), after.end());
       return StartsWith(reversed, after);
     };
-    const TimeWindow checked = ExtendedToKnots(walk, window);
-    EXPECT_LE(checked.begin, window.begin);
-    EXPECT_GE(checked.end, window.end);
+    const TimeSpan checked = ExtendedToKnots(walk, span);
+    EXPECT_LE(checked.begin, span.begin);
+    EXPECT_GE(checked.end, span.end);
     EXPECT_TRUE(old_before(checked.begin)) << i;
     EXPECT_TRUE(old_after(checked.end)) << i;
-    cut_without += !old_before(window.begin) || !old_after(window.end);
+    cut_without += !old_before(span.begin) || !old_after(span.end);
   }
   EXPECT_GT(cut_without, 0) << "the case that this is about";
 }
 
 // Regression: a down half-step that overlaps all of the next one ends where the one after that
-// begins. Its window was taken for a whole stretch, beside which nothing is cut.
+// begins. Its span was taken for a whole stretch, beside which nothing is cut.
 TEST(CertifiedFeasibility, OnlyWholeStretchesAreCheckedAsTheyAre) {
   const HalfStepSequence sequence = WalkDraw(30).Sequence(3);
   const int j = 1;  // down → up
@@ -303,17 +303,17 @@ TEST(CertifiedFeasibility, OnlyWholeStretchesAreCheckedAsTheyAre) {
   parameters.overlaps[1] = 2.0;
   const SuperposedWalk walk(sequence, parameters);
   ASSERT_EQ(walk.end_of(j), walk.start_of(j + 2));
-  const TimeWindow stretch{walk.start_of(j + 1), walk.start_of(j + 2)};
-  const TimeWindow alone = ExtendedToKnots(walk, stretch);
+  const TimeSpan stretch{walk.start_of(j + 1), walk.start_of(j + 2)};
+  const TimeSpan alone = ExtendedToKnots(walk, stretch);
   EXPECT_EQ(alone.begin, stretch.begin);
   EXPECT_EQ(alone.end, stretch.end);
-  const TimeWindow changed{std::nextafter(stretch.begin, -1.0), stretch.end};
+  const TimeSpan changed{std::nextafter(stretch.begin, -1.0), stretch.end};
   EXPECT_LT(ExtendedToKnots(walk, changed).begin, stretch.begin - 1e-3);
   EXPECT_GT(ExtendedToKnots(walk, changed).end, stretch.end + 1e-3);
 }
 
-// What lies between a window and the next knots is checked as well: where an overlap's change puts
-// a knot, intervals beside the window are cut anew.
+// What lies between a span and the next knots is checked as well: where an overlap's change puts
+// a knot, intervals beside the span are cut anew.
 TEST(CertifiedFeasibility, ChecksAWindowUpToTheKnotsAroundIt) {
   const FastStep step;
   const MarginLimits limits = ObstaclesOnly();
@@ -326,11 +326,11 @@ TEST(CertifiedFeasibility, ChecksAWindowUpToTheKnotsAroundIt) {
   const double begin = *(after - 1), end = *after;
   const MarginEvaluator evaluator(step.robot, scene, limits);
   MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
-  for (const TimeWindow& window :
-       {TimeWindow{begin + 1e-4, begin + 2e-4}, TimeWindow{end - 2e-4, end - 1e-4}}) {
-    ASSERT_EQ(SampledFeasibility(evaluator, 1e-5).Check(step.walk, window, &scratch).verdict,
+  for (const TimeSpan& span :
+       {TimeSpan{begin + 1e-4, begin + 2e-4}, TimeSpan{end - 2e-4, end - 1e-4}}) {
+    ASSERT_EQ(SampledFeasibility(evaluator, 1e-5).Check(step.walk, span, &scratch).verdict,
               Verdict::kFeasible);
-    EXPECT_EQ(CertifiedFeasibility(evaluator, {}).Check(step.walk, window, &scratch).verdict,
+    EXPECT_EQ(CertifiedFeasibility(evaluator, {}).Check(step.walk, span, &scratch).verdict,
               Verdict::kViolated);
   }
 }
@@ -345,7 +345,7 @@ TEST(CertifiedFeasibility, IsUndecidedAtACoarseResolution) {
   limits.demanded_of(MarginFamily::kReach) =
       least[static_cast<size_t>(MarginFamily::kReach)].value - 1e-5;
   const MarginEvaluator evaluator(step.robot, {}, limits);
-  const TimeWindow whole{0.0, step.walk.duration()};
+  const TimeSpan whole{0.0, step.walk.duration()};
   const auto verdict = [&](double resolution) {
     const CertifiedFeasibility test(evaluator, {.resolution = resolution, .longest = 0.07});
     return test.Check(step.walk, whole, &scratch).verdict;

@@ -144,8 +144,8 @@ TEST_F(DichotomyTest, AsksNoMoreThanBisectionNeedsAndOnlyAboutTheStretchThatChan
   }
   EXPECT_LE(test.questions.size(), allowed);
   const SuperposedWalk planned(sequence_, PlannedMotion(sequence_));
-  EXPECT_EQ(test.questions[0].window.begin, 0.0);
-  EXPECT_EQ(test.questions[0].window.end, planned.duration());
+  EXPECT_EQ(test.questions[0].span.begin, 0.0);
+  EXPECT_EQ(test.questions[0].span.end, planned.duration());
   HomotopyParameters incumbent = PlannedMotion(sequence_);
   size_t junction = 0;
   for (size_t k = 1; k < test.questions.size(); ++k) {
@@ -162,9 +162,9 @@ TEST_F(DichotomyTest, AsksNoMoreThanBisectionNeedsAndOnlyAboutTheStretchThatChan
     junction = which;
     const SuperposedWalk walk(sequence_, question.parameters);
     const int i = static_cast<int>(which);
-    EXPECT_EQ(question.window.begin, std::nextafter(walk.start_of(i + 1), -1.0));
-    EXPECT_EQ(question.window.end, walk.end_of(i));
-    EXPECT_GT(question.window.end, question.window.begin);
+    EXPECT_EQ(question.span.begin, std::nextafter(walk.start_of(i + 1), -1.0));
+    EXPECT_EQ(question.span.end, walk.end_of(i));
+    EXPECT_GT(question.span.end, question.span.begin);
     if (question.verdict == Verdict::kFeasible) incumbent = question.parameters;
   }
   EXPECT_EQ(incumbent, result.parameters);

@@ -16,7 +16,7 @@ class FakeFeasibility : public FeasibilityTest {
   using Rule = std::function<Verdict(const HomotopyParameters&)>;
   struct Question {
     HomotopyParameters parameters;
-    TimeWindow window;
+    TimeSpan span;
     Verdict verdict;
   };
 
@@ -29,11 +29,11 @@ class FakeFeasibility : public FeasibilityTest {
   std::unique_ptr<FeasibilityTest> Over(const MarginEvaluator& evaluator) const override {
     return std::make_unique<FakeFeasibility>(evaluator, rule_);
   }
-  Feasibility Check(const SuperposedWalk& walk, const TimeWindow& window,
+  Feasibility Check(const SuperposedWalk& walk, const TimeSpan& span,
                     MarginEvaluator::Scratch* scratch) const override {
     ++scratch->instants;
     const Verdict verdict = rule_(walk.parameters());
-    questions.push_back({walk.parameters(), window, verdict});
+    questions.push_back({walk.parameters(), span, verdict});
     Margin witness{.family = MarginFamily::kZmp, .value = -0.02};
     witness.t = static_cast<double>(questions.size());  // to tell witnesses apart
     return {verdict, Evidence::kCertified, witness};

@@ -84,7 +84,7 @@ TEST_F(MovingObstacles, AnOverlapIsCheckedToTheEndOfTheWalk) {
     for (size_t k = 1; k < 4; ++k) {
       const SuperposedWalk walk(sequence_, test.questions[k].parameters);
       const int junction = static_cast<int>(k) - 1;
-      EXPECT_EQ(test.questions[k].window.end, local ? walk.end_of(junction) : walk.duration());
+      EXPECT_EQ(test.questions[k].span.end, local ? walk.end_of(junction) : walk.duration());
     }
   }
 }

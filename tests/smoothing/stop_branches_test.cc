@@ -109,18 +109,18 @@ TEST(StopBranch, ChangesOnlyWhereTheWalkChangedWhenItsNewPartBegins) {
 
 class StoppableTest : public testing::Test {
  protected:
-  // What the test within was asked, besides the walk: half-steps of each branch, and its window.
-  using Asked = std::vector<std::pair<int, TimeWindow>>;
-  Asked AskedOf(StopBranches branches, const TimeWindow& window) {
+  // What the test within was asked, besides the walk: half-steps of each branch, and its span.
+  using Asked = std::vector<std::pair<int, TimeSpan>>;
+  Asked AskedOf(StopBranches branches, const TimeSpan& span) {
     const auto test = std::make_shared<FakeFeasibility>(
         evaluator_, [](const HomotopyParameters&) { return Verdict::kFeasible; });
     MarginEvaluator::Scratch scratch = evaluator_.MakeScratch();
     const StoppableFeasibility stoppable(test, branches);
-    EXPECT_EQ(stoppable.Check(walk_, window, &scratch).verdict, Verdict::kFeasible);
+    EXPECT_EQ(stoppable.Check(walk_, span, &scratch).verdict, Verdict::kFeasible);
     Asked asked;
     for (size_t i = 1; i < test->questions.size(); ++i) {
       const FakeFeasibility::Question& q = test->questions[i];
-      asked.emplace_back(static_cast<int>(q.parameters.durations.size()), q.window);
+      asked.emplace_back(static_cast<int>(q.parameters.durations.size()), q.span);
     }
     return asked;
   }

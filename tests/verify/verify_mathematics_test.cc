@@ -10,7 +10,8 @@
 #include "experiments/verify/sole_polygon.h"
 #include "tests/verify/plan_of.h"
 #include "wpg/geometry/support_polygon.h"
-#include "wpg/motion/half_step.h"
+#include "wpg/motion/half_step_tracks.h"
+#include "wpg/motion/lipm.h"
 #include "wpg/motion/moved_footsteps.h"
 #include "wpg/motion/posture.h"
 #include "wpg/robot/robot_measures.h"
@@ -55,29 +56,27 @@ TEST(HalfStepMotion, IsTheProgramsHalfStep) {
     const WalkPlan plan = PlanOf(sequence);
     for (size_t i = 0; i < plan.half_steps.size(); ++i) {
       const auto& [half_step, X_WS] = sequence.half_steps[i];
-      const HalfStepProfiles profiles(half_step.kind, half_step.shape, half_step.duration,
-                                      sequence.lipm);
-      const HalfStepMotion motion(plan.half_steps[i], sequence.lipm.omega());
-      EXPECT_NEAR(motion.foot_begin(), profiles.horizontal_begin(), 1e-15);
-      EXPECT_NEAR(motion.foot_end(), profiles.horizontal_end(), 1e-15);
-      EXPECT_NEAR(motion.t1(), profiles.t1(), 1e-15);
-      EXPECT_NEAR(motion.t2(), profiles.t2(), 1e-15);
-      const WalkState from = Transformed(X_WS, half_step.Start());
-      const WalkState delta = Transformed(X_WS, half_step.End()) - from;
+      const HalfStepTracks tracks(half_step, *sequence.model, X_WS);
+      const HalfStepMotion motion(plan.half_steps[i],
+                                  dynamic_cast<const Lipm&>(*sequence.model).omega());
+      EXPECT_NEAR(motion.foot_begin(), tracks.horizontal_begin(), 1e-15);
+      EXPECT_NEAR(motion.foot_end(), tracks.horizontal_end(), 1e-15);
+      EXPECT_NEAR(motion.t1(), tracks.t1(), 1e-15);
+      EXPECT_NEAR(motion.t2(), tracks.t2(), 1e-15);
       for (int n = 0; n < 40; ++n) {
         const double tau = Draw(-0.1, 1.1, &random) * half_step.duration;
         const double to = tau + Draw(0, 0.2, &random);
-        const HalfStepJet jet = profiles.At(tau), bounds = profiles.SecondBounds(tau, to);
+        const WalkJet jet = tracks.At(tau);
+        WalkState bounds = WalkState::Zero();
+        tracks.AddSecondBounds(tau, to, &bounds);
         WalkInstant at{.value = motion.start()};
         motion.AddAt(tau, &at);
         for (int q = 0; q < kNumQuantities; ++q) {
-          const ProfileJet& f = jet.of(q);
-          EXPECT_NEAR(at.value[q], from[q] + f.value * delta[q], 1e-12) << q;
-          EXPECT_NEAR(at.first[q], f.first * delta[q], 1e-11) << q;
-          EXPECT_NEAR(at.second[q], f.second * delta[q], 1e-9) << q;
+          EXPECT_NEAR(at.value[q], jet.value[q], 1e-12) << q;
+          EXPECT_NEAR(at.first[q], jet.first[q], 1e-11) << q;
+          EXPECT_NEAR(at.second[q], jet.second[q], 1e-9) << q;
         }
-        const Eigen::Vector2d sums = bounds.com.second * delta.segment<2>(kComX).cwiseAbs() +
-                                     bounds.zmp.second * delta.segment<2>(kZmpX).cwiseAbs();
+        const Eigen::Vector2d sums = bounds.segment<2>(kComX) + bounds.segment<2>(kZmpX);
         const Eigen::Vector2d own = motion.SecondBounds(tau, to);
         EXPECT_NEAR((own - sums).norm(), 0, 1e-9 * (1 + sums.norm()));
       }

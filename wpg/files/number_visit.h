@@ -13,8 +13,7 @@ using NumberVisit =
     std::function<void(const std::string& path, double* value, const NumberSpec& spec)>;
 
 /// Calls `visit` for every Fields::Number that `declare` declares, also in groups that may be
-/// absent, but not in lists, in the order of the declaration. `visit` may change the value. What
-/// `declare` itself changes while it declares, as defaults that hang on other keys, stays changed.
+/// absent, but not in lists, in the order of the declaration. `visit` may change the value.
 void VisitNumbers(const std::function<void(Fields&)>& declare, const NumberVisit& visit);
 
 }  // namespace halfstep

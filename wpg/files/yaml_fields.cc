@@ -46,7 +46,13 @@ void ReadYamlText(const std::string& text, const std::string& name, const std::s
   if (root.kind != YamlNode::Kind::kMap) {
     complaints.Fail(root.place, "", "not a map: " + Describe(root) + " (valid: a map of keys)");
   }
-  for (const YamlOverride& item : overrides) OverrideYaml(item.key, item.value, &root, &complaints);
+  for (const YamlOverride& item : overrides) {
+    if (item.leave_out) {
+      RemoveYaml(item.key, &root);
+    } else {
+      OverrideYaml(item.key, item.value, &root, &complaints);
+    }
+  }
   YamlReader(&root, "", directory, &complaints).Run(declare);
   complaints.ThrowIfAny();
 }

@@ -11,8 +11,9 @@ namespace halfstep {
 
 /// Replaces the value of a dotted key: "smoothing.margins.clearance_m=0.02". List items by index.
 struct YamlOverride {
-  std::string key;    ///< dotted, from the root
-  std::string value;  ///< YAML text.
+  std::string key;         ///< dotted, from the root
+  std::string value;       ///< YAML text.
+  bool leave_out = false;  ///< no value: the key goes, with all below it
 };
 
 /// Reads a YAML file strictly through a declaration of its keys. Throws InputError with every

@@ -79,6 +79,9 @@ YamlNode ParseYaml(const std::string& text, const std::string& override_key,
 void OverrideYaml(const std::string& dotted_key, const std::string& value_text, YamlNode* root,
                   YamlComplaints* complaints);
 
+/// Removes a dotted key of maps, where it is there.
+void RemoveYaml(const std::string& dotted_key, YamlNode* root);
+
 /// "a map", "a list", "nothing" or the quoted text.
 std::string Describe(const YamlNode& node);
 

@@ -79,4 +79,15 @@ void OverrideYaml(const std::string& dotted_key, const std::string& value_text, 
   *node = std::move(value);
 }
 
+void RemoveYaml(const std::string& dotted_key, YamlNode* root) {
+  const std::vector<std::string> parts = Split(dotted_key);
+  YamlNode* map = root;
+  for (size_t i = 0; i + 1 < parts.size(); ++i) {
+    if (map == nullptr || map->kind != YamlNode::Kind::kMap) return;
+    map = map->Find(parts[i]);
+  }
+  if (map == nullptr || map->kind != YamlNode::Kind::kMap) return;
+  std::erase_if(map->items, [&](const YamlNode& item) { return item.key == parts.back(); });
+}
+
 }  // namespace halfstep

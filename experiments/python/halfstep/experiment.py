@@ -179,9 +179,10 @@ class Experiment:
         """Smooths the walk by a method (``hs.methods()``), from the planned motion.
 
         ``options`` are the keys of the method's group in the config: of ``smoothing.dichotomy``,
-        ``smoothing.optimizer`` (``heights=True``, ``durations=True``, ``program="safest"`` ...) or
-        ``smoothing.horizon``. ``deadline`` [s] ends the search, with what was found. Ctrl-C ends
-        it, and raises KeyboardInterrupt. An exception in a function of yours is raised here.
+        ``smoothing.optimizer`` (``heights=True``, ``durations=True``, ``program="safest"`` ...),
+        ``smoothing.horizon`` or ``smoothing.own``. ``deadline`` [s] ends the search, with what was
+        found. Ctrl-C ends it, and raises KeyboardInterrupt. An exception in a function of yours is
+        raised here.
         """
         if not isinstance(method, str):
             raise TypeError(f"method: {type(method).__name__} (valid: a method's name)")
@@ -197,7 +198,8 @@ class Experiment:
             if not deadline > 0.0:
                 raise InputError(f"deadline: {deadline} (valid: above 0 s)")
             limit = float(deadline)
-        text = self._with_options(method, options) if options else ""
+        own = any(path[0] == "own" for path, _ in _halfstep.option_groups(method))
+        text = self._with_options(method, options) if options or own else ""
         return Result(self._experiment.smooth(method, text, limit, _progress(progress)))
 
     def run(self, out: str | os.PathLike, overwrite: bool = False,
@@ -231,13 +233,16 @@ class Experiment:
 
     def _with_options(self, method: str, options: Mapping[str, Any]) -> str:
         config = self.config
-        groups = _halfstep.option_groups(method)
-        known = {key: group for group in reversed(groups) for key in config["smoothing"][group]}
+        known = {key: path for path, keys in reversed(_halfstep.option_groups(method))
+                 for key in keys}
         for key, value in options.items():
             if key not in known:
                 valid = ", ".join(known) or "none"
                 raise TypeError(f"{method} has no option {key!r} (valid: {valid})")
-            config["smoothing"][known[key]][key] = value
+            group = config["smoothing"]
+            for part in known[key]:
+                group = group.setdefault(part, {})
+            group[key] = value
         if self._scene is not None:
             config["scene"] = None
         return to_document(config)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import math
+import numbers
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -44,6 +46,11 @@ class SmoothingProblem:
     def remaining(self) -> float:
         """Until the deadline [s]."""
         return self._task.remaining
+
+    @property
+    def options(self) -> dict[str, Any]:
+        """Your own options by their names: what the config says, else their defaults."""
+        return self._task.options
 
     def program(self, program: str | None = None, **options: Any) -> OverlapProgram:
         """The overlap program of the walk: that of ``smoothing.optimizer`` in the config, or with
@@ -133,7 +140,8 @@ class SolverProblem:
 
 
 def register_smoother(name: str, function: Callable[[SmoothingProblem], Any],
-                      meaning: str = "") -> None:
+                      meaning: str = "",
+                      options: Mapping[str, Any] | None = None) -> None:
     """Makes a function a method of smoothing, by name: for ``Experiment.smooth(name)`` and in
     ``smoothing.methods`` of experiments that this program runs. A later one of the same name takes
     its place; a name of a method that is built in is a ValueError.
@@ -142,6 +150,15 @@ def register_smoother(name: str, function: Callable[[SmoothingProblem], Any],
     nothing has to look at ``problem.stopped``, or Ctrl-C waits for it. The families that it
     moves, and its deadline, are up to ``smoothing.optimizer``, if it uses ``problem.program()``.
     It is called in another thread than that of ``smooth``.
+
+    ``options`` are keys of your own, under ``smoothing.own.NAME`` in configs, which are read as
+    strictly as all others: name to default, True or False, a number or text, or to a dict with
+    ``default``, ``meaning``, ``unit``, ``min`` and ``max`` of a number, ``choices`` of a text.
+    ``problem.options`` has their values::
+
+        hs.register_smoother("mine/scale", scale_all, options={
+            "rounds": {"default": 6, "min": 1, "max": 50, "meaning": "of the bisection"}})
+        experiment.smooth("mine/scale", rounds=9)
     """
     _require(name, function)
     if not isinstance(meaning, str):
@@ -154,7 +171,7 @@ def register_smoother(name: str, function: Callable[[SmoothingProblem], Any],
         except SolveStopped:
             pass  # the incumbent is the result
 
-    _halfstep.register_smoother(name, meaning or _first_line(function), call)
+    _halfstep.register_smoother(name, meaning or _first_line(function), _declared(options), call)
 
 
 def register_solver(name: str,
@@ -178,6 +195,56 @@ def _require(name: Any, function: Any) -> None:
         raise InputError(f"name: {name!r} (valid: letters, digits, '_' and '/')")
     if not callable(function):
         raise TypeError(f"function: {type(function).__name__} (valid: a function)")
+
+
+def _declared(options: Any) -> list[dict[str, Any]]:
+    if options is not None and not isinstance(options, Mapping):
+        raise TypeError(f"options: {type(options).__name__} (valid: a dict)")
+    return [_option(name, given) for name, given in (options or {}).items()]
+
+
+def _option(name: Any, given: Any) -> dict[str, Any]:
+    if not isinstance(name, str) or not name.isidentifier() or not name.isascii():
+        raise InputError(f"options: {name!r} (valid: a name of letters, digits and '_')")
+    if name.endswith("_deg"):
+        raise InputError(f"options: {name} (valid: an angle in radians, NAME_rad)")
+    given = dict(given) if isinstance(given, Mapping) else {"default": given}
+    option = {"name": name, "meaning": "", "unit": "", "min": -math.inf, "max": math.inf,
+              "choices": []} | given
+    what = f"options: {name}"
+    for key in given:
+        if key not in ("default", "meaning", "unit", "min", "max", "choices"):
+            raise InputError(f"{what}: {key!r} (valid: default, meaning, unit, min, max, choices)")
+    for key in ("meaning", "unit"):
+        text(f"{what}: {key}", _typed(f"{what}: {key}", option[key], str, "text"))
+    option["choices"] = [text(f"{what}: choices", _typed(f"{what}: choices", choice, str, "texts"))
+                         for choice in _typed(f"{what}: choices", option["choices"],
+                                              (list, tuple), "a list of texts")]
+    for key in ("min", "max"):
+        if key in given:
+            option[key] = number(f"{what}: {key}", option[key])
+    default = option.get("default")
+    if isinstance(default, str):
+        text(f"{what}: default", default)
+        if option["choices"] and default not in option["choices"]:
+            raise InputError(f"{what}: default {default!r} (valid: {', '.join(option['choices'])})")
+    elif isinstance(default, (bool, np.bool_)):
+        option["default"] = bool(default)
+    else:
+        value = number(f"{what}: default", default)
+        whole = isinstance(default, numbers.Integral)
+        least, most = (max(option["min"], -2**31), min(option["max"], 2**31 - 1)) if whole else (
+            option["min"], option["max"])
+        if not least <= value <= most:
+            raise InputError(f"{what}: default {default} (valid: from {least:g} to {most:g})")
+        option["default"] = int(default) if whole else value
+    return option
+
+
+def _typed(what: str, value: Any, kind: Any, valid: str) -> Any:
+    if not isinstance(value, kind):
+        raise TypeError(f"{what}: {type(value).__name__} (valid: {valid})")
+    return value
 
 
 def _first_line(function: Any) -> str:

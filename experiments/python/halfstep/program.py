@@ -47,7 +47,7 @@ class OverlapProgram:
         minimize  cost(x)   subject to   constraint_lower <= constraints(x) <= constraint_upper,
                                          lower <= x <= upper
 
-    ``program``: "fastest" (cost: the duration [s]), "smooth" (duration and effort, by ``weights``
+    ``program``: "fastest" (cost: the duration [s]), "smooth" (duration and roughness, by ``weights``
     of the CoM's acceleration, its jerk and the feet's speed) or "safest" (minus the least slack,
     the last variable, with a duration of at most ``duration_limit`` [s]).
 

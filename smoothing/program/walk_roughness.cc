@@ -1,4 +1,4 @@
-#include "smoothing/program/walk_effort.h"
+#include "smoothing/program/walk_roughness.h"
 
 #include <algorithm>
 #include <array>
@@ -31,7 +31,7 @@ struct Integrand {
         right(jet.first.segment<3>(FootIndex(Side::kRight))) {}
 
   // Half the derivative of the weighted integrand along d when d is the tangent of this.
-  double Dot(const Integrand& d, const EffortWeights& w) const {
+  double Dot(const Integrand& d, const RoughnessWeights& w) const {
     return w.com_acceleration * acceleration.dot(d.acceleration) + w.com_jerk * jerk.dot(d.jerk) +
            w.foot_speed * (left.dot(d.left) + right.dot(d.right));
   }
@@ -71,19 +71,19 @@ void ForEachNode(const SuperposedWalk& walk,
 
 }  // namespace
 
-WalkEffort EffortOf(const SuperposedWalk& walk) {
-  WalkEffort effort;
+WalkRoughness RoughnessOf(const SuperposedWalk& walk) {
+  WalkRoughness roughness;
   ForEachNode(walk, [&](const LocalTime& at, double weight) {
     const Integrand f(walk.At(at), walk.model());
-    effort.com_acceleration += weight * f.acceleration.squaredNorm();
-    effort.com_jerk += weight * f.jerk.squaredNorm();
-    effort.foot_speed += weight * (f.left.squaredNorm() + f.right.squaredNorm());
+    roughness.com_acceleration += weight * f.acceleration.squaredNorm();
+    roughness.com_jerk += weight * f.jerk.squaredNorm();
+    roughness.foot_speed += weight * (f.left.squaredNorm() + f.right.squaredNorm());
   });
-  return effort;
+  return roughness;
 }
 
-double WeightedEffort(const SuperposedWalk& walk, const EffortWeights& weights,
-                      ParameterGradient* gradient) {
+double WeightedRoughness(const SuperposedWalk& walk, const RoughnessWeights& weights,
+                         ParameterGradient* gradient) {
   double value = 0.0;
   std::vector<WalkSensitivity> sensitivities;
   ForEachNode(walk, [&](const LocalTime& at, double weight) {
