@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/config/smoothing_config.h"
+#include "experiments/config/toolbox.h"
 
 namespace halfstep {
 

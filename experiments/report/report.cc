@@ -237,7 +237,7 @@ Place PlaceOfRun(const fs::path& run, const Toolbox& tools) {
 std::string RunReport(const RobotModel& robot, const Scene& scene, const fs::path& folder,
                       const Toolbox& tools) {
   const json manifest = ReadJsonObject(folder / "manifest.json");
-  json report = EmptyReport("run", methods);
+  json report = EmptyReport("run", tools.methods);
   for (const char* key : {"name", "version", "commit", "objective", "acceptance"}) {
     if (!manifest.contains(key)) {
       throw InputError({(folder / "manifest.json").string() + ": no '" + key + "'"});
@@ -275,7 +275,7 @@ std::string ComparisonReport(const Comparison& comparison, const Toolbox& tools)
   for (const ComparedCase& one : comparison.cases) {
     for (const ComparedMethod& method : one.methods) total += method.record.duration;
   }
-  json report = EmptyReport("comparison", methods);
+  json report = EmptyReport("comparison", tools.methods);
   report["profiles"] = ProfilesJson(comparison);
   for (const ComparedCase& one : comparison.cases) {
     report["cases"].push_back(CaseOf(one, SpacingFor(total), tools, &report));

@@ -136,7 +136,7 @@ std::vector<NotCovered> VerifyEpisode(const VerifyOptions& options,
   const LiveConfig config = LoadLiveConfig(config_path, GivenFiles(options), options.tools);
   const Place place = PlaceOf(options, config, manifest);
   CheckEpisodeInputs(manifest, config, ReadBytes(config_path), place, findings);
-  if (NamesOfConfigs(options.methods).has_own_margins) {
+  if (NamesOfConfigs(options.tools).has_own_margins) {
     findings->NotExamined("whether the family `own` holds: its formula is not known here");
   }
   const std::vector<NotCovered> not_covered = FindNotCovered(

@@ -72,7 +72,7 @@ ExperimentConfig ReadConfig(const VerifyOptions& options, const std::string& pat
     config = ParseConfig(path, text, overrides, options.tools);
   }
   if (own.methods) config.smoothing.methods = *own.methods;
-  if (!NamesOfConfigs(options.methods).has_own_margins) {
+  if (!NamesOfConfigs(options.tools).has_own_margins) {
     config.smoothing.limits.demanded_of(MarginFamily::kOwn) =
         own.own_margin.value_or(verify::kNotDemanded);
   }
