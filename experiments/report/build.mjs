@@ -47,7 +47,7 @@ const policy = `default-src 'none'; script-src ${hash(script)}; style-src ${hash
 const text = (file) => readFileSync(join(here, file), "utf8");
 const parts = {
   "@TITLE@": name === "live" ? "halfstep live" : "halfstep",
-  "@BODY@": text(`${name}.html`),
+  "@BODY@": text(`${name}.html`).trim(),
   "@POLICY@": policy,
   "@STYLE@": style,
   "@LICENCES@": escaped(licences),
