@@ -14,6 +14,7 @@
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/run_check.h"
 #include "tests/temporary_folder.h"
+#include "tests/wpg/one_step.h"
 
 namespace halfstep {
 namespace {
@@ -290,14 +291,7 @@ TEST(RunCommand, AnInfeasiblePlanTellsWhatHelps) {
 // A plan misses a demand between the instants that are looked at, where the proof found it.
 TEST(RunCommand, AnInfeasiblePlanTellsWhatItMissesForAMoment) {
   const RobotModel robot = LoadRobot(HALFSTEP_SOURCE_DIR "/wpg/robots/hrp2.yaml");
-  const double y = 0.5 * robot.standing_width;
-  const HalfStepSequence sequence =
-      MakeSequence({Foothold::Level({0, y, 0}), Foothold::Level({0, -y, 0})},
-                   {{.side = Side::kLeft,
-                     .X_WF = Foothold::Level({0.2, y, 0}),
-                     .via_height = 0.25,
-                     .duration = 2.0}},
-                   0.24, {}, {.com_height = robot.com_height});
+  const HalfStepSequence sequence = OneStep(robot);
   const SuperposedWalk walk(sequence, PlannedMotion(sequence));
   const MarginEvaluator evaluator(robot, Scene{}, MarginLimits{});
   const Margin witness{

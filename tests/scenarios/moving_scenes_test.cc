@@ -17,6 +17,7 @@
 #include "smoothing/program/watched_instants.h"
 #include "smoothing/proof/certified_feasibility.h"
 #include "tests/scenarios/load_experiment.h"
+#include "tests/scenarios/row_slopes.h"
 #include "tests/smoothing/smoothed.h"
 #include "tests/smoothing/test_walks.h"
 
@@ -177,25 +178,15 @@ TEST(MovingScenes, RowsOfTheProgramAgreeWithDifferences) {
   for (int i = 0; i < Draws(6); ++i) {
     const Eigen::VectorXd x = variables.ToVariables(draw.Parameters(e.sequence, 0.1, 0.9)),
                           lower = variables.lower();
-    Eigen::VectorXd direction(x.size());
-    for (Eigen::Index v = 0; v < x.size(); ++v) direction[v] = draw.Uniform(-1, 1);
-    Eigen::VectorXd values;
-    std::vector<double> nonzeros;
-    table.Evaluate(x, &values, &nonzeros);
-    const auto slope = [&](double h) {
-      Eigen::VectorXd more, less;
-      table.Evaluate(x + h * direction, &more, nullptr);
-      table.Evaluate(x - h * direction, &less, nullptr);
-      return Eigen::VectorXd((more - less) / (2 * h));
-    };
-    const Eigen::VectorXd coarse = slope(1e-5), fine = slope(2e-6);
+    const RowSlopes slopes(table, x, &draw);
+    const Eigen::VectorXd &coarse = slopes.coarse, &fine = slopes.fine;
     size_t entry = 0;
     for (int row = 0; row < table.rows(); ++row) {
       const int half_step = table.half_step_of(row);
       const std::vector<int> near = OverlapVariables(e.sequence, variables.table()).Band(half_step);
       double analytic = 0.0, near_only = 0.0;
       for (const int v : table.band(half_step)) {
-        const double part = nonzeros[entry++] * direction[v];
+        const double part = slopes.nonzeros[entry++] * slopes.direction[v];
         analytic += part;
         if (std::find(near.begin(), near.end(), v) != near.end()) near_only += part;
       }

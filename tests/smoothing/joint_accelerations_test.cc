@@ -13,7 +13,7 @@
 #include "smoothing/proof/interval_statements.h"
 #include "smoothing/walk/posture_tangent.h"
 #include "tests/smoothing/drawn_motion.h"
-#include "tests/wpg/acceleration_limits.h"
+#include "tests/wpg/joint_limits.h"
 #include "wpg/motion/dynamics_slope.h"
 
 namespace halfstep {

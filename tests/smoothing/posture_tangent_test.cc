@@ -23,14 +23,18 @@ Eigen::VectorXd Everything(const RobotModel& robot, const WalkJet& jet) {
   return all;
 }
 
+WalkJet DrawnJet(WalkDraw* draw) {
+  const HalfStepSequence sequence = draw->Sequence(2);
+  const SuperposedWalk walk(sequence, draw->Parameters(sequence, 0.0, 0.9));
+  return walk.At(draw->Uniform(0, walk.duration()));
+}
+
 TEST(PostureTangent, AgreesWithDifferencesOfTheInverseKinematics) {
   const RobotModel robot = Hrp2();
   WalkDraw draw(340);
   int checked = 0;
   for (int i = 0; i < Draws(200); ++i) {
-    const HalfStepSequence sequence = draw.Sequence(2);
-    const SuperposedWalk walk(sequence, draw.Parameters(sequence, 0.0, 0.9));
-    const WalkJet jet = walk.At(draw.Uniform(0, walk.duration()));
+    const WalkJet jet = DrawnJet(&draw);
     const auto moving = MovingPosture(robot, jet);
     if (!moving) continue;
     const Posture& posture = *moving;
@@ -68,9 +72,7 @@ TEST(PostureTangent, AlongTimeItIsTheVelocity) {
   WalkDraw draw(341);
   int checked = 0;
   for (int i = 0; i < Draws(100); ++i) {
-    const HalfStepSequence sequence = draw.Sequence(2);
-    const SuperposedWalk walk(sequence, draw.Parameters(sequence, 0.0, 0.9));
-    const WalkJet jet = walk.At(draw.Uniform(0, walk.duration()));
+    const WalkJet jet = DrawnJet(&draw);
     Posture posture = SolvePosture(robot, jet.value);
     if (!posture.reachable || !SolveJointSpeeds(robot, jet, &posture)) continue;
     ++checked;

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "tests/smoothing/test_walks.h"
@@ -45,11 +46,10 @@ void ExpectEqualUntil(const SuperposedWalk& a, const SuperposedWalk& b, double u
 // C² where two walks part: the second time derivatives, which are continuous, differ by no more
 // than they may change within the distance to that instant.
 void ExpectC2At(const SuperposedWalk& walk, double t) {
-  const double h = 1e-8;
-  const WalkJet before = walk.At(t - h), after = walk.At(t + h);
-  EXPECT_LT(Largest(after.value - before.value), 1e-7);
-  EXPECT_LT(Largest(after.first - before.first), 1e-6);
-  EXPECT_LT(Largest(after.second - before.second), 1e-3);
+  const WalkJet change = ChangeAt(walk, t, 1e-8);
+  EXPECT_LT(Largest(change.value), 1e-7);
+  EXPECT_LT(Largest(change.first), 1e-6);
+  EXPECT_LT(Largest(change.second), 1e-3);
 }
 
 TEST(Rest, NothingMovesWhileTheRobotRests) {
@@ -102,14 +102,19 @@ TEST(Rest, IsKeptByClampingWhereItWasWanted) {
   EXPECT_EQ(point.overlaps[2], NaturalOverlapBound(point, 2));
 }
 
+// A plan, and the last of its half-steps that has begun.
+std::pair<WalkPlan, int> DrawnPlan(WalkDraw* draw) {
+  const HalfStepSequence sequence = draw->Sequence(4);
+  const HomotopyParameters parameters = draw->ExtremeParameters(sequence);
+  return {{sequence, parameters}, static_cast<int>(draw->Uniform(0, sequence.num_junctions()))};
+}
+
 // Statement 1.
 TEST(Successor, DelayedAgreesToTheBitUntilTheNextHalfStep) {
   WalkDraw draw(610);
   for (int i = 0; i < Draws(50); ++i) {
-    const HalfStepSequence sequence = draw.Sequence(4);
-    const WalkPlan plan{sequence, draw.ExtremeParameters(sequence)};
+    const auto [plan, last] = DrawnPlan(&draw);
     const SuperposedWalk walk = plan.Walk();
-    const int last = static_cast<int>(draw.Uniform(0, sequence.num_junctions()));
     const double begin = walk.start_of(last + 1) + draw.Uniform(0.01, 3.0);
     const SuperposedWalk delayed = Delayed(plan, last, begin).Walk();
     EXPECT_NEAR(delayed.start_of(last + 1), begin, 1e-12);
@@ -125,14 +130,12 @@ TEST(Successor, DelayedAgreesToTheBitUntilTheNextHalfStep) {
 TEST(Successor, ChangedAgreesToTheBitAndEndsOnTheNewFootsteps) {
   WalkDraw draw(611);
   for (int i = 0; i < Draws(50); ++i) {
-    const HalfStepSequence sequence = draw.Sequence(4);
-    const WalkPlan plan{sequence, draw.ExtremeParameters(sequence)};
+    const auto [plan, last] = DrawnPlan(&draw);
     const SuperposedWalk walk = plan.Walk();
-    const int last = static_cast<int>(draw.Uniform(0, sequence.num_junctions()));
     const bool up = last % 2 == 0;
     const Side swing = walk.half_step(last).swing();
     const std::vector<Footstep> footsteps =
-        SomeFootsteps(up ? swing : Opposite(swing), StanceAfter(sequence, last), 3, &draw);
+        SomeFootsteps(up ? swing : Opposite(swing), StanceAfter(plan.sequence, last), 3, &draw);
     const WalkPlan changed = Changed(plan, last, footsteps);
     const SuperposedWalk successor = changed.Walk();
     EXPECT_EQ(changed.sequence.size(), last + 1 + (up ? 5 : 6));

@@ -116,6 +116,12 @@ inline bool NearKnot(const SuperposedWalk& walk, double t, double distance) {
                      [&](double knot) { return std::abs(knot - t) < distance; });
 }
 
+/// From h before an instant to h after it.
+inline WalkJet ChangeAt(const SuperposedWalk& walk, double t, double h) {
+  const WalkJet before = walk.At(t - h), after = walk.At(t + h);
+  return {after.value - before.value, after.first - before.first, after.second - before.second};
+}
+
 /// Value, first and second derivative one below the other (39×1).
 inline Eigen::VectorXd Stacked(const WalkJet& jet) {
   Eigen::VectorXd all(3 * kNumQuantities);

@@ -31,6 +31,14 @@ struct Given {
   double turn = 0.0, push = 0.0;
 };
 
+// The robot at rest on both feet.
+WalkJet Standing(const RobotModel& robot) {
+  WalkJet still;
+  still.value[kLeftY] = 0.5 * robot.standing_width;
+  still.value[kRightY] = -0.5 * robot.standing_width;
+  return still;
+}
+
 // A robot of which only the waist has mass, and that on the floor below the CoM, so that it can ask
 // for whatever the floor is to give.
 class AskingRobot {
@@ -40,9 +48,7 @@ class AskingRobot {
     robot_.masses.waist = {.mass = 0.0,
                            .com = {robot_.com_x_B, 0.0, -robot_.waist_height},
                            .inertia = Vector3d(0, 0, 1).asDiagonal()};
-    const double aside = 0.5 * robot_.standing_width;
-    jet_.value[kLeftY] = aside;
-    jet_.value[kRightY] = -aside;
+    jet_ = Standing(robot_);
   }
 
   RobotDynamics That(const Given& given) {
@@ -195,11 +201,8 @@ TEST(FootFriction, IsNotExceededWhateverNormsAllow) {
 // A link that moves as far, and is pushed as much, as its drift lets it.
 TEST(RobotDrift, HoldsWhatALinkCanAsk) {
   const RobotModel robot = LoadRobot(kHrp2);
-  WalkJet still;
-  still.value[kLeftY] = 0.5 * robot.standing_width;
-  still.value[kRightY] = -0.5 * robot.standing_width;
   constexpr double h = 0.01;
-  AtRest rest(robot, still, h);
+  AtRest rest(robot, Standing(robot), h);
   const Vector3d pole(rest.dynamics.Zmp()->x(), rest.dynamics.Zmp()->y(), 0);
   rest.drift.waist_mass = {};
   for (auto& leg : rest.drift.link_masses) leg.fill({});
@@ -242,11 +245,8 @@ TEST(RobotDrift, HoldsWhatALinkCanAsk) {
 // much as its drift lets it: few of that at a time.
 TEST(TorqueDrift, HoldsWhateverSharesAndAxesDo) {
   const RobotModel robot = LoadRobot(kHrp2);
-  WalkJet still;
-  still.value[kLeftY] = 0.5 * robot.standing_width;
-  still.value[kRightY] = -0.5 * robot.standing_width;
   constexpr double h = 0.01;
-  AtRest rest(robot, still, h);
+  AtRest rest(robot, Standing(robot), h);
   const RobotDynamics& dynamics = rest.dynamics;
   const Vector2d zmp = *dynamics.Zmp();
   for (auto& leg : rest.drift.link_masses) leg.fill({});
@@ -309,12 +309,9 @@ TEST(TorqueDrift, HoldsWhateverSharesAndAxesDo) {
 // the push grows: products of two changes, of which each is alone here.
 TEST(TorqueDrift, HoldsWhatAFootTakesThatHadNone) {
   const RobotModel robot = LoadRobot(kHrp2);
-  WalkJet still;
-  still.value[kLeftY] = 0.5 * robot.standing_width;
-  still.value[kRightY] = -0.5 * robot.standing_width;
   constexpr double h = 0.01;
   constexpr size_t kLeg = 1;
-  AtRest rest(robot, still, h);
+  AtRest rest(robot, Standing(robot), h);
   const RobotDynamics& dynamics = rest.dynamics;
   const Vector2d zmp = *dynamics.Zmp();
   for (auto& leg : rest.drift.link_masses) leg.fill({});
