@@ -116,19 +116,17 @@ TEST(MovingScenes, SlopesAlongEveryEarlierParameterAgreeWithDifferences) {
   WalkDraw draw(371);
   int compared = 0, timed = 0, kinks = 0, by_time_alone = 0, caught = 0;
   for (int i = 0; i < Draws(40); ++i) {
-    const HomotopyParameters parameters = draw.Parameters(e.sequence, 0.05, 0.85);
-    const SuperposedWalk walk(e.sequence, parameters);
-    const double t = draw.Uniform(0, walk.duration());
-    if (NearKnot(walk, t, 1e-3)) continue;
-    const LocalTime at = walk.Locate(t);
+    const DrawnInstant drawn(e.sequence, 0.05, 0.85, &draw);
+    if (NearKnot(drawn.walk, drawn.t, 1e-3)) continue;
+    const LocalTime& at = drawn.at;
     InstantSlacks here;
-    slacks.At(walk, at, {}, true, &here);
+    slacks.At(drawn.walk, at, {}, true, &here);
     ASSERT_EQ(here.times.size(), 2 * static_cast<size_t>(at.half_step));
     for (const HomotopyParameter& parameter : AllParameters(e.sequence)) {
       const auto slope = [&](double h, size_t row) {
         double sides[2] = {0, 0};
         for (const int s : {0, 1}) {
-          HomotopyParameters moved = parameters;
+          HomotopyParameters moved = drawn.parameters;
           parameter.in(moved) += s == 0 ? -h : h;
           InstantSlacks there;
           slacks.At(SuperposedWalk(e.sequence, moved), at, {}, false, &there);

@@ -43,15 +43,6 @@ void ExpectEqualUntil(const SuperposedWalk& a, const SuperposedWalk& b, double u
   }
 }
 
-// C² where two walks part: the second time derivatives, which are continuous, differ by no more
-// than they may change within the distance to that instant.
-void ExpectC2At(const SuperposedWalk& walk, double t) {
-  const WalkJet change = ChangeAt(walk, t, 1e-8);
-  EXPECT_LT(Largest(change.value), 1e-7);
-  EXPECT_LT(Largest(change.first), 1e-6);
-  EXPECT_LT(Largest(change.second), 1e-3);
-}
-
 TEST(Rest, NothingMovesWhileTheRobotRests) {
   WalkDraw draw(601);
   for (int i = 0; i < Draws(50); ++i) {
@@ -121,8 +112,8 @@ TEST(Successor, DelayedAgreesToTheBitUntilTheNextHalfStep) {
     EXPECT_EQ(CommonHalfSteps(walk, delayed), last + 1);
     EXPECT_EQ(AgreeUntil(walk, delayed), walk.start_of(last + 1));
     ExpectEqualUntil(walk, delayed, walk.start_of(last + 1), &draw);
-    ExpectC2At(delayed, walk.start_of(last + 1));
-    ExpectC2At(delayed, begin);
+    EXPECT_TRUE(IsC2At(delayed, walk.start_of(last + 1), 1e-8));
+    EXPECT_TRUE(IsC2At(delayed, begin, 1e-8));
   }
 }
 
@@ -143,7 +134,7 @@ TEST(Successor, ChangedAgreesToTheBitAndEndsOnTheNewFootsteps) {
     const double until = std::min(walk.start_of(last + 1), successor.start_of(last + 1));
     EXPECT_GE(AgreeUntil(walk, successor), until);
     ExpectEqualUntil(walk, successor, until, &draw);
-    ExpectC2At(successor, until);
+    EXPECT_TRUE(IsC2At(successor, until, 1e-8));
     // It begins where half-step `last` ends: value by value, and lands where it was told to.
     const WalkJet end = successor.At(successor.duration());
     for (size_t k = footsteps.size() - 2; k < footsteps.size(); ++k) {
@@ -153,7 +144,7 @@ TEST(Successor, ChangedAgreesToTheBitAndEndsOnTheNewFootsteps) {
       EXPECT_NEAR(foot.yaw, footsteps[k].X_WF.yaw, 1e-9);
     }
     for (int k = 1; k < successor.num_half_steps(); ++k)
-      ExpectC2At(successor, successor.start_of(k));
+      EXPECT_TRUE(IsC2At(successor, successor.start_of(k), 1e-8));
   }
 }
 

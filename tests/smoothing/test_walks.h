@@ -116,11 +116,28 @@ inline bool NearKnot(const SuperposedWalk& walk, double t, double distance) {
                      [&](double knot) { return std::abs(knot - t) < distance; });
 }
 
-/// From h before an instant to h after it.
-inline WalkJet ChangeAt(const SuperposedWalk& walk, double t, double h) {
+/// Whether a walk is C² at an instant: from h before it to h after it the second time derivatives,
+/// which are continuous, differ by no more than they may change in that time.
+inline bool IsC2At(const SuperposedWalk& walk, double t, double h) {
   const WalkJet before = walk.At(t - h), after = walk.At(t + h);
-  return {after.value - before.value, after.first - before.first, after.second - before.second};
+  return Largest(after.value - before.value) < 1e-7 && Largest(after.first - before.first) < 1e-6 &&
+         Largest(after.second - before.second) < 1e-3;
 }
+
+/// A random instant of a random walk.
+struct DrawnInstant {
+  HomotopyParameters parameters;
+  SuperposedWalk walk;
+  double t;
+  LocalTime at;
+
+  /// Overlaps are between `low` and `high` of their natural bounds.
+  DrawnInstant(const HalfStepSequence& sequence, double low, double high, WalkDraw* draw)
+      : parameters(draw->Parameters(sequence, low, high)),
+        walk(sequence, parameters),
+        t(draw->Uniform(0, walk.duration())),
+        at(walk.Locate(t)) {}
+};
 
 /// Value, first and second derivative one below the other (39×1).
 inline Eigen::VectorXd Stacked(const WalkJet& jet) {

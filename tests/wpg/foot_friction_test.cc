@@ -158,6 +158,18 @@ struct AtRest {
   }
 };
 
+// HRP-2 at rest on both feet, where no mass has a drift.
+struct Hrp2AtRest {
+  static constexpr double h = 0.01;
+  RobotModel robot = LoadRobot(kHrp2);
+  AtRest rest{robot, Standing(robot), h};
+
+  Hrp2AtRest() {
+    rest.drift.waist_mass = {};
+    for (auto& leg : rest.drift.link_masses) leg.fill({});
+  }
+};
+
 TEST(FootFriction, IsNotExceededWhateverNormsAllow) {
   AskingRobot asking;
   AlgebraDraw draw(12);
@@ -200,12 +212,10 @@ TEST(FootFriction, IsNotExceededWhateverNormsAllow) {
 
 // A link that moves as far, and is pushed as much, as its drift lets it.
 TEST(RobotDrift, HoldsWhatALinkCanAsk) {
-  const RobotModel robot = LoadRobot(kHrp2);
-  constexpr double h = 0.01;
-  AtRest rest(robot, Standing(robot), h);
+  constexpr double h = Hrp2AtRest::h;
+  Hrp2AtRest hrp2;
+  AtRest& rest = hrp2.rest;
   const Vector3d pole(rest.dynamics.Zmp()->x(), rest.dynamics.Zmp()->y(), 0);
-  rest.drift.waist_mass = {};
-  for (auto& leg : rest.drift.link_masses) leg.fill({});
   AlgebraDraw draw(13);
   AlgebraTally horizontal, yaw, force;
   for (int i = 0; i < Draws(20000); ++i) {
@@ -228,7 +238,8 @@ TEST(RobotDrift, HoldsWhatALinkCanAsk) {
     };
     const Vector3d change = moment(link.com + moved, a) - moment(link.com, link.acceleration) +
                             draw.In({{0, 0, 0}, link.moment});
-    const ZmpDrift zmp = ZmpDrift::Over(robot, rest.motion, {}, rest.drift, rest.dynamics, kEarth);
+    const ZmpDrift zmp =
+        ZmpDrift::Over(hrp2.robot, rest.motion, {}, rest.drift, rest.dynamics, kEarth);
     horizontal.Compare(change.head<2>().norm(), zmp.Most() * zmp.least_push, 100.0);
     yaw.Compare(std::abs(change.z()), rest.drift.YawMomentDrift(pole - rest.dynamics.O()), 100.0);
     force.Compare(link.mass * (a - link.acceleration).norm(), rest.drift.ForceDrift(), 100.0);
@@ -244,12 +255,11 @@ TEST(RobotDrift, HoldsWhatALinkCanAsk) {
 // Both feet stand, the waist moves and is pushed, the ZMP goes and the hip's axes turn, each as
 // much as its drift lets it: few of that at a time.
 TEST(TorqueDrift, HoldsWhateverSharesAndAxesDo) {
-  const RobotModel robot = LoadRobot(kHrp2);
-  constexpr double h = 0.01;
-  AtRest rest(robot, Standing(robot), h);
+  constexpr double h = Hrp2AtRest::h;
+  Hrp2AtRest hrp2;
+  AtRest& rest = hrp2.rest;
   const RobotDynamics& dynamics = rest.dynamics;
   const Vector2d zmp = *dynamics.Zmp();
-  for (auto& leg : rest.drift.link_masses) leg.fill({});
   AlgebraDraw draw(14);
   AlgebraTally torque;
   for (int i = 0; i < Draws(6000); ++i) {
@@ -308,13 +318,12 @@ TEST(TorqueDrift, HoldsWhateverSharesAndAxesDo) {
 // A foot that has no load at m takes some while what presses changes, while the axis turns, while
 // the push grows: products of two changes, of which each is alone here.
 TEST(TorqueDrift, HoldsWhatAFootTakesThatHadNone) {
-  const RobotModel robot = LoadRobot(kHrp2);
-  constexpr double h = 0.01;
+  constexpr double h = Hrp2AtRest::h;
   constexpr size_t kLeg = 1;
-  AtRest rest(robot, Standing(robot), h);
+  Hrp2AtRest hrp2;
+  AtRest& rest = hrp2.rest;
   const RobotDynamics& dynamics = rest.dynamics;
   const Vector2d zmp = *dynamics.Zmp();
-  for (auto& leg : rest.drift.link_masses) leg.fill({});
   Vector6d hung = Vector6d::Zero();
   for (const RobotDynamics::Body& link : dynamics.leg(Side::kRight)) hung += link.force;
   const auto point = [&](size_t joint) -> Vector3d {
