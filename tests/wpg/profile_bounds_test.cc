@@ -5,7 +5,6 @@
 #include <optional>
 #include <random>
 
-#include "tests/draws.h"
 #include "wpg/motion/half_step.h"
 #include "wpg/motion/rest_to_rest.h"
 #include "wpg/motion/smoothstep.h"
@@ -13,9 +12,13 @@
 namespace halfstep {
 namespace {
 
+double Uniform(std::mt19937& random, double lower, double upper) {
+  return std::uniform_real_distribution<double>(lower, upper)(random);
+}
+
 // A window of σ that may reach beyond [0, 1], from 10⁻⁴ long.
 struct Window {
-  explicit Window(std::mt19937* random)
+  explicit Window(std::mt19937& random)
       : from(Uniform(random, -0.2, 1.1)), to(from + std::pow(10.0, Uniform(random, -4, 0))) {}
   double from, to;
   template <typename Function>
