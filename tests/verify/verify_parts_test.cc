@@ -8,6 +8,7 @@
 
 #include "experiments/verify/check_clearance.h"
 #include "experiments/verify/check_rows.h"
+#include "experiments/verify/csv_text.h"
 #include "experiments/verify/distances.h"
 #include "experiments/verify/floor_distances.h"
 #include "experiments/verify/own_names.h"
