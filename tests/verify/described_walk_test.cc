@@ -8,7 +8,6 @@
 
 #include "experiments/tables/parameter_tables.h"
 #include "experiments/verify/check_overlaps.h"
-#include "experiments/verify/csv_text.h"
 #include "tests/verify/rows_of.h"
 
 namespace halfstep::verify {
