@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <random>
 
 namespace halfstep {
 
@@ -13,5 +14,10 @@ constexpr bool kSanitized = false;
 
 /// `count`, or a tenth of it (at least 1) when sanitized.
 constexpr int Draws(int count) { return kSanitized ? std::max(1, count / 10) : count; }
+
+/// A number in [lower, upper), all alike.
+inline double Uniform(std::mt19937* random, double lower, double upper) {
+  return std::uniform_real_distribution<double>(lower, upper)(*random);
+}
 
 }  // namespace halfstep

@@ -16,8 +16,9 @@ namespace {
 using enum CsvType;
 constexpr size_t kOnePercent = 0, kFivePercent = 1;
 
-void WorkCell(const std::optional<RuntimeToTarget>& work, bool by_wall, CsvWriter* csv) {
-  work ? csv->Cell(by_wall ? work->wall : work->instants) : csv->Empty();
+std::optional<double> Spent(const std::optional<RuntimeToTarget>& work, bool by_wall) {
+  if (!work) return std::nullopt;
+  return by_wall ? work->wall : work->instants;
 }
 
 // An empty cell would make a column of them something else to pandas.
@@ -26,12 +27,9 @@ std::string_view OrNone(const std::string& variables) {
 }
 
 // Gap of an incumbent, by duration; none where there is no best or another objective.
-void DurationGapCell(const ComparedCase& one, double duration, CsvWriter* csv) {
-  if (!one.best_cost || one.objective != "fastest") {
-    csv->Empty();
-  } else {
-    csv->Cell(duration / *one.best_cost - 1.0);
-  }
+std::optional<double> GapOf(const ComparedCase& one, double duration) {
+  if (!one.best_cost || one.objective != "fastest") return std::nullopt;
+  return duration / *one.best_cost - 1.0;
 }
 
 }  // namespace
@@ -78,18 +76,17 @@ CsvFile ComparisonCsv(const Comparison& comparison) {
           .Cell(Name(record.ending))
           .Cell(record.certified)
           .Cell(record.duration);
-      csv.Cell(record.speedup);
-      std::isnan(method.gap) ? csv.Empty() : csv.Cell(record.cost);
-      one.best_cost ? csv.Cell(*one.best_cost) : csv.Empty();
-      std::isnan(method.gap) ? csv.Empty() : csv.Cell(method.gap);
-      record.gap_to_reference ? csv.Cell(*record.gap_to_reference) : csv.Empty();
+      const bool compared = !std::isnan(method.gap);
+      csv.Cell(record.speedup).Cell(compared ? std::optional(record.cost) : std::nullopt);
+      csv.Cell(one.best_cost).Cell(compared ? std::optional(method.gap) : std::nullopt);
+      csv.Cell(record.gap_to_reference);
       csv.Cell(record.instants).Cell(record.collision_queries).Cell(record.wall);
       for (bool by_wall : {true, false}) {
-        WorkCell(method.reached[kFivePercent], by_wall, &csv);
-        WorkCell(method.reached[kOnePercent], by_wall, &csv);
+        csv.Cell(Spent(method.reached[kFivePercent], by_wall));
+        csv.Cell(Spent(method.reached[kOnePercent], by_wall));
       }
       csv.Cell(LooksLikeFormula(record.run) ? "./" + record.run : record.run);
-      if (with_bound) record.gap_lipm ? csv.Cell(*record.gap_lipm) : csv.Empty();
+      if (with_bound) csv.Cell(record.gap_lipm);
       csv.EndRow();
     }
   }
@@ -137,8 +134,7 @@ CsvFile AnytimeCsv(const Comparison& comparison) {
       const auto row = [&](const IncumbentRecord& incumbent) {
         csv.Cell(one.scenario).Cell(one.objective).Cell(record.name).Cell(OrNone(record.variables));
         csv.Cell(incumbent.wall).Cell(incumbent.instants).Cell(incumbent.duration);
-        DurationGapCell(one, incumbent.duration, &csv);
-        csv.EndRow();
+        csv.Cell(GapOf(one, incumbent.duration)).EndRow();
       };
       double last = one.methods.front().record.duration;
       row({0.0, 0.0, last});

@@ -39,9 +39,34 @@ bool IsUnderWay(const SuperposedWalk& walk, const std::vector<BegunHalfStep>& be
   });
 }
 
+// Calls `visit` of every body of the robot at the multiples of `period` up to `end` at which
+// `counts` says so, with the scene as it is then.
+template <typename Counts, typename Visit>
+void VisitBodies(const SuperposedWalk& walk, const TrueWorld& truth, const RobotModel& robot,
+                 double period, double end, const Counts& counts, const Visit& visit) {
+  std::vector<CollisionShape> shapes;
+  for (const RobotBody& body : robot.bodies) shapes.emplace_back(body.shape);
+  Scene scene;
+  std::optional<CollisionWorld> world;
+  for (long i = 0; static_cast<double>(i) * period <= end; ++i) {
+    const double t = static_cast<double>(i) * period;
+    const WalkJet jet = walk.At(t);
+    if (!counts(t, jet)) continue;
+    // Mostly nothing moves.
+    if (Scene now = SceneAt(truth, t); !world || !SamePlaces(now, scene)) {
+      scene = std::move(now);
+      world.emplace(scene);
+    }
+    const Posture posture = SolvePosture(robot, jet.value);
+    for (size_t b = 0; b < shapes.size(); ++b) {
+      visit(t, robot.bodies[b].name, shapes[b], posture.OfBody(robot.bodies[b]), scene, *world);
+    }
+  }
+}
+
 // Notes each obstacle that a body touches; the deepest is asked for until none is left.
-void AddTouches(const CollisionShape& shape, const Eigen::Isometry3d& X_WB, const std::string& body,
-                double t, Scene scene, const CollisionWorld& world,
+void AddTouches(double t, const std::string& body, const CollisionShape& shape,
+                const Eigen::Isometry3d& X_WB, Scene scene, const CollisionWorld& world,
                 std::vector<TouchedObstacle>* touches) {
   auto found = world.FindNearest(shape, X_WB, t, kTouch);
   while (found.obstacle >= 0 && found.separation.distance <= 0.0) {
@@ -68,24 +93,10 @@ std::vector<TouchedObstacle> FindTouches(const Episode& episode, const TrueWorld
   std::vector<TouchedObstacle> touches;
   if (episode.walks.empty()) return touches;
   const SuperposedWalk walk = episode.Executed();
-  const double end = std::min(walk.duration(), episode.end);
-  std::vector<CollisionShape> shapes;
-  for (const RobotBody& body : robot.bodies) shapes.emplace_back(body.shape);
-  Scene scene;
-  std::optional<CollisionWorld> world;
-  for (long i = 0; static_cast<double>(i) * kLook <= end; ++i) {
-    const double t = static_cast<double>(i) * kLook;
-    if (!IsUnderWay(walk, episode.begun, t)) continue;
-    if (Scene now = SceneAt(truth, t); !world || !SamePlaces(now, scene)) {
-      scene = std::move(now);
-      world.emplace(scene);
-    }
-    const Posture posture = SolvePosture(robot, walk.At(t).value);
-    for (size_t b = 0; b < shapes.size(); ++b) {
-      AddTouches(shapes[b], posture.OfBody(robot.bodies[b]), robot.bodies[b].name, t, scene, *world,
-                 &touches);
-    }
-  }
+  VisitBodies(
+      walk, truth, robot, kLook, std::min(walk.duration(), episode.end),
+      [&](double t, const WalkJet&) { return IsUnderWay(walk, episode.begun, t); },
+      [&](const auto&... at) { AddTouches(at..., &touches); });
   return touches;
 }
 
@@ -94,31 +105,21 @@ Approach NearestApproach(const Episode& episode, const TrueWorld& truth, const R
   Approach nearest{.distance = cap, .t = 0.0, .obstacle = {}, .body = {}};
   if (episode.walks.empty()) return nearest;
   const SuperposedWalk walk = episode.Executed();
-  const double end = also_at_rest ? episode.end : std::min(walk.duration(), episode.end);
-  std::vector<CollisionShape> shapes;
-  for (const RobotBody& body : robot.bodies) shapes.emplace_back(body.shape);
-  Scene scene;
-  std::optional<CollisionWorld> world;
-  for (long i = 0; static_cast<double>(i) * period <= end; ++i) {
-    const double t = static_cast<double>(i) * period;
-    const WalkJet jet = walk.At(t);
-    if (!also_at_rest && jet.first.isZero(1e-9) && jet.second.isZero(1e-9)) continue;
-    // Mostly nothing moves.
-    if (Scene now = SceneAt(truth, t); !world || !SamePlaces(now, scene)) {
-      scene = std::move(now);
-      world.emplace(scene);
-    }
-    const Posture posture = SolvePosture(robot, jet.value);
-    for (size_t b = 0; b < shapes.size(); ++b) {
-      const auto found =
-          world->FindNearest(shapes[b], posture.OfBody(robot.bodies[b]), t, nearest.distance);
-      if (found.obstacle < 0 || found.separation.distance >= nearest.distance) continue;
-      nearest = {.distance = found.separation.distance,
-                 .t = t,
-                 .obstacle = Nth(scene.obstacles, found.obstacle).name,
-                 .body = robot.bodies[b].name};
-    }
-  }
+  VisitBodies(
+      walk, truth, robot, period,
+      also_at_rest ? episode.end : std::min(walk.duration(), episode.end),
+      [&](double, const WalkJet& jet) {
+        return also_at_rest || !jet.first.isZero(1e-9) || !jet.second.isZero(1e-9);
+      },
+      [&](double t, const std::string& body, const CollisionShape& shape,
+          const Eigen::Isometry3d& X_WB, const Scene& scene, const CollisionWorld& world) {
+        const auto found = world.FindNearest(shape, X_WB, t, nearest.distance);
+        if (found.obstacle < 0 || found.separation.distance >= nearest.distance) return;
+        nearest = {.distance = found.separation.distance,
+                   .t = t,
+                   .obstacle = Nth(scene.obstacles, found.obstacle).name,
+                   .body = body};
+      });
   return nearest;
 }
 

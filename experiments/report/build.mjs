@@ -1,5 +1,5 @@
 // Bundles a page: node build.mjs FOLDER_WITH_NODE_MODULES NAME OUT.html
-// NAME.html, with NAME.js as its script and NAME.css as its style.
+// page.html around NAME.html, with NAME.js as its script and NAME.css as its style.
 import { createHash } from "node:crypto";
 import { readFileSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
@@ -39,16 +39,20 @@ const licences = ["three", "uplot"]
   .map((used) => `${used}\n\n${readFileSync(join(modules, used, "LICENSE"), "utf8").trim()}`)
   .join("\n\n\n");
 
-// Only this script and this style run, and nothing is fetched: whatever a run's files are named.
+// Only this script and this style run, and nothing is fetched but an episode: whatever a run's files are named.
 const policy = `default-src 'none'; script-src ${hash(script)}; style-src ${hash(style)}; ` +
-  "img-src data:; base-uri 'none'; form-action 'none'";
+  "img-src data:; base-uri 'none'; form-action 'none'" +
+  (name === "live" ? "; connect-src @HALFSTEP_SOCKET@" : "");
 
+const text = (file) => readFileSync(join(here, file), "utf8");
 const parts = {
+  "@TITLE@": name === "live" ? "halfstep live" : "halfstep",
+  "@BODY@": text(`${name}.html`).trim(),
   "@POLICY@": policy,
   "@STYLE@": style,
   "@LICENCES@": escaped(licences),
   "@SCRIPT@": script,
 };
-let page = readFileSync(join(here, `${name}.html`), "utf8");
-for (const [place, text] of Object.entries(parts)) page = page.replace(place, () => text);
+let page = text("page.html");
+for (const [place, part] of Object.entries(parts)) page = page.replace(place, () => part);
 writeFileSync(out, page);

@@ -9,7 +9,7 @@ import { legend, planRows, shortened, volumesNote } from "./live_words.js";
 import * as palette from "./palette.js";
 import * as THREE from "three";
 import { SocketSource } from "./socket_source.js";
-import { Stage } from "./stage.js";
+import { stageOfPage } from "./stage.js";
 import { Timeline } from "./timeline.js";
 import { Walk } from "./walk.js";
 
@@ -33,13 +33,7 @@ darkness.addEventListener("change", () => {
 });
 
 const record = new EpisodeRecord();
-let stage = null;
-try {
-  stage = new Stage(byId("canvas"), () => redraw());
-} catch {
-  byId("canvas").hidden = byId("scale").hidden = true;
-  byId("no-webgl").hidden = false;
-}
+const stage = stageOfPage(() => redraw());
 let view = null; // once it is known what to draw
 let instant = null; // of the live robot
 let walk = null; // the recorded motion

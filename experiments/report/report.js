@@ -19,7 +19,7 @@ import { Plots } from "./plots.js";
 import { RobotShapes } from "./robot.js";
 import { plotList } from "./series.js";
 import { Sliders } from "./sliders.js";
-import { Stage } from "./stage.js";
+import { stageOfPage } from "./stage.js";
 import { volumesInPlaceOf } from "./swept_volumes.js";
 import { guarantee, junctionTable, scenarioTable, summaryTable } from "./tables.js";
 import { Timeline } from "./timeline.js";
@@ -34,13 +34,7 @@ const cases = report.cases.map((one) => ({ ...one, walks: one.walks.map((walk) =
 const darkness = window.matchMedia("(prefers-color-scheme: dark)");
 palette.useTheme(darkness.matches);
 
-let stage = null;
-try {
-  stage = new Stage(byId("canvas"), () => redraw());
-} catch {
-  byId("canvas").hidden = byId("scale").hidden = true;
-  byId("no-webgl").hidden = false;
-}
+const stage = stageOfPage(() => redraw());
 
 const shapes = report.robots.map((robot) => (stage ? new RobotShapes(robot) : null));
 const plots = new Plots(byId("plots"), (t) => timeline.seek(t));

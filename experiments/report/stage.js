@@ -191,3 +191,15 @@ export class Stage {
     this.camera.updateMatrixWorld();
   }
 }
+
+/** The stage on the page's canvas; null without WebGL, which the page says in its place. */
+export function stageOfPage(redraw) {
+  const byId = (id) => document.getElementById(id);
+  try {
+    return new Stage(byId("canvas"), redraw);
+  } catch {
+    byId("canvas").hidden = byId("scale").hidden = true;
+    byId("no-webgl").hidden = false;
+    return null;
+  }
+}

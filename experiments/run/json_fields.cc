@@ -56,10 +56,6 @@ class JsonWriter : public Fields {
     object_[key] = JsonOf(declare);
     return true;
   }
-  void OptionalGroup(const char* key, bool* present, const GroupSpec& spec,
-                     const std::function<void(Fields&)>& declare) override {
-    if (*present) Group(key, spec, declare);
-  }
   void Items(const char* key, const GroupSpec&, size_t size, const std::function<void(size_t)>&,
              const std::function<void(Fields&, size_t)>& declare) override {
     ordered_json& list = object_[key] = ordered_json::array();
@@ -67,8 +63,6 @@ class JsonWriter : public Fields {
       list.push_back(JsonOf([&](Fields& fields) { declare(fields, i); }));
     }
   }
-  void Complain(const char*, const std::string&) override {}
-  std::string directory() const override { return ""; }
 
  private:
   ordered_json object_ = ordered_json::object();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -22,6 +23,8 @@ class CsvWriter {
   CsvWriter& Cell(bool value);                                           ///< `true` or `false`
   CsvWriter& Cell(std::string_view text);  ///< a text, quoted where it must be
   CsvWriter& Cell(const char* text) { return Cell(std::string_view(text)); }  ///< the same
+  /// A number, or an empty cell.
+  CsvWriter& Cell(const std::optional<double>& value) { return value ? Cell(*value) : Empty(); }
   /// Writes an empty cell, for what does not apply. In columns of numbers only: elsewhere it would
   /// change the type that pandas reads.
   CsvWriter& Empty();

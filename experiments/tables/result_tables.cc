@@ -93,9 +93,9 @@ CsvFile OverlapsCsv(const MarginEvaluator& evaluator, const MethodRun& run) {
     } else {
       csv.Cell("none").Empty();
     }
-    junction.price ? csv.Cell(*junction.price) : csv.Empty();
+    csv.Cell(junction.price);
     const bool determined = junction.multiplier && std::isfinite(*junction.multiplier);
-    determined ? csv.Cell(*junction.multiplier) : csv.Empty();
+    csv.Cell(determined ? junction.multiplier : std::nullopt);
     csv.Cell(Nth(parameters.durations, index - 1)).Cell(Nth(parameters.durations, index));
     csv.Cell(Nth(parameters.height_scales, (index - 1) / 2));
     csv.Cell(Nth(parameters.height_scales, index / 2));
@@ -146,10 +146,8 @@ CsvFile IteratesCsv(const MethodRun& run) {
   int index = 0;
   for (const SmoothingIterate& iterate : run.result.iterates) {
     csv.Cell(++index).Cell(iterate.wall).Cell(iterate.instants).Cell(iterate.candidate_duration);
-    iterate.candidate_worst_margin ? csv.Cell(*iterate.candidate_worst_margin) : csv.Empty();
-    csv.Cell(iterate.accepted).Cell(iterate.lambda).Cell(iterate.incumbent_duration);
-    iterate.incumbent_slack ? csv.Cell(*iterate.incumbent_slack) : csv.Empty();
-    csv.EndRow();
+    csv.Cell(iterate.candidate_worst_margin).Cell(iterate.accepted).Cell(iterate.lambda);
+    csv.Cell(iterate.incumbent_duration).Cell(iterate.incumbent_slack).EndRow();
   }
   return csv.file();
 }
@@ -191,9 +189,6 @@ void AddSummaryRow(const MarginEvaluator& evaluator, const std::vector<MethodRun
   const CsvColumns columns = SummaryColumns(with_bound);
   size_t column = 0;
   const auto next = [&]() -> CsvWriter& { return cell(columns[column++]); };
-  const auto optional = [&](const std::optional<double>& value) {
-    value ? next().Cell(*value) : next().Empty();
-  };
   std::optional<double> gap;
   for (const MethodRun& other : runs) {
     if (other.method == "reference") gap = run.duration / other.duration - 1.0;
@@ -210,12 +205,12 @@ void AddSummaryRow(const MarginEvaluator& evaluator, const std::vector<MethodRun
   next().Cell(result.instants);
   next().Cell(result.collision_queries);
   next().Cell(result.wall);
-  optional(result.time_to_first_improvement);
-  optional(gap);
+  next().Cell(result.time_to_first_improvement);
+  next().Cell(gap);
   if (!with_bound) return;
   const std::optional<double> bound = BoundOf(runs);
   const bool holds = bound && !result.lower_bound && MovesOfFootsteps(result.parameters).empty();
-  optional(holds ? std::optional(run.duration / *bound - 1.0) : std::nullopt);
+  next().Cell(holds ? std::optional(run.duration / *bound - 1.0) : std::nullopt);
 }
 
 CsvFile SummaryCsv(const MarginEvaluator& evaluator, const std::vector<MethodRun>& runs) {

@@ -11,7 +11,6 @@
 #include "smoothing/methods/search_ending.h"
 #include "smoothing/methods/walk_window.h"
 #include "smoothing/methods/whole_proof.h"
-#include "smoothing/methods/window_passes.h"
 #include "wpg/check.h"
 #include "wpg/nth.h"
 
@@ -102,12 +101,7 @@ class HorizonSearch {
   }
 
   void Search() {
-    const WindowPassesOptions passes{.window = options_.window,
-                                     .step = options_.step,
-                                     .passes = options_.passes,
-                                     .program = options_.program,
-                                     .deadline = options_.deadline};
-    end_.own = SearchWindows(problem_, passes, *solver_, 0.2, 0.8, monitor_, &end_);
+    end_.own = SearchWindows(problem_, options_, *solver_, 0.2, 0.8, monitor_, &end_);
     at_ = monitor_.incumbent();
   }
 

@@ -3,21 +3,15 @@
 #include <string>
 
 #include "smoothing/methods/method_options.h"
-#include "smoothing/methods/smoothing_monitor.h"
-#include "smoothing/program/overlap_program.h"
+#include "smoothing/methods/window_passes.h"
 
 namespace halfstep {
 
-/// Options of `halfstep/horizon`.
-struct HorizonOptions {
-  int window = 6;  ///< half-steps that are moved together; even, ≥ 2
-  int step = 4;    ///< half-steps by which the next window lies further on; even, 2 … window
-  int passes = 6;  ///< ≥ 1: over the whole walk at most
+/// Options of `halfstep/horizon`. Its program is not `safest`, whose least slack belongs to the
+/// whole walk; its deadline is that of all passes together.
+struct HorizonOptions : WindowPassesOptions {
   std::string solver = "halfstep/sqp";  ///< one of opt::SolverNames()
-  /// `fastest` or `smooth`; `safest` is refused, since its least slack belongs to the whole walk.
-  ProgramOptions program;
-  double deadline = 30.0;    ///< of all passes together [s]
-  double tolerance = 0.001;  ///< of the dichotomies after them [s]
+  double tolerance = 0.001;             ///< of the dichotomies after the passes [s]
 };
 
 /// `smoothing.horizon`: window, step and passes; the rest is of `smoothing.optimizer`.

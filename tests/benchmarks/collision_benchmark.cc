@@ -3,21 +3,18 @@
 #include <benchmark/benchmark.h>
 
 #include <Eigen/Geometry>
-#include <numbers>
 #include <random>
 
 #include "planner/collision/collision_world.h"
 #include "planner/collision/separation.h"
+#include "tests/benchmarks/wavy_ball.h"
+#include "tests/draws.h"
 
 namespace halfstep {
 namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
-
-double Uniform(std::mt19937* random, double lower, double upper) {
-  return std::uniform_real_distribution<double>(lower, upper)(*random);
-}
 
 // `count` vertices on an ellipsoid of the size of a shank.
 ConvexBody Hull(int count, std::mt19937* random) {
@@ -136,30 +133,9 @@ void BM_FindNearestRoom(benchmark::State& state) {
 }
 BENCHMARK(BM_FindNearestRoom)->Iterations(200000);
 
-// A wavy closed surface of about 2 · n² triangles, 0.5 m across.
-TriangleMesh WavyBall(int n) {
-  TriangleMesh mesh;
-  mesh.vertices.resize(3, n * n);
-  mesh.triangles.resize(3, 2 * n * (n - 1));
-  int t = 0;
-  for (int i = 0; i < n; ++i) {
-    for (int j = 0; j < n; ++j) {
-      const double polar = std::numbers::pi * (i + 0.5) / n, around = 2 * std::numbers::pi * j / n;
-      const double r = 0.25 + 0.02 * std::sin(5 * around) * std::sin(7 * polar);
-      mesh.vertices.col(i * n + j) << r * std::sin(polar) * std::cos(around),
-          r * std::sin(polar) * std::sin(around), r * std::cos(polar);
-      const int next = (j + 1) % n;
-      if (i + 1 == n) continue;
-      mesh.triangles.col(t++) << i * n + j, (i + 1) * n + j, (i + 1) * n + next;
-      mesh.triangles.col(t++) << i * n + j, (i + 1) * n + next, i * n + next;
-    }
-  }
-  return mesh;
-}
-
 void BM_SeparateFromMesh(benchmark::State& state) {
   std::mt19937 random(5);
-  const CollisionShape mesh(WavyBall(static_cast<int>(state.range(0))));
+  const CollisionShape mesh(WavyBall(static_cast<int>(state.range(0)), 0.25));
   const CollisionShape shank(Hull(40, &random));
   const Isometry3d X_Wm = At(0, 0, 0.25, 0);
   double angle = 0;

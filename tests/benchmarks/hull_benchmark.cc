@@ -11,8 +11,9 @@
 #include "planner/collision/convex_distance.h"
 #include "planner/swept/swept_volume.h"
 #include "smoothing/proof/missed_demands.h"
+#include "tests/wpg/one_step.h"
+#include "tests/wpg/random_direction.h"
 #include "wpg/geometry/simplified_hull.h"
-#include "wpg/motion/half_step_sequence.h"
 #include "wpg/motion/lipm.h"
 #include "wpg/robot/robot_model.h"
 
@@ -22,12 +23,6 @@ namespace {
 using Eigen::Vector3d;
 
 enum Kind { kScan, kMap, kSimple };
-
-Vector3d Direction(std::mt19937* random) {
-  std::normal_distribution<double> normal;
-  const double x = normal(*random), y = normal(*random), z = normal(*random);
-  return Vector3d(x, y, z).normalized();
-}
 
 ConvexBody As(ConvexBody hull, Kind kind) {
   if (kind == kSimple) hull = SimplifyOutward(hull, 64).body;
@@ -40,7 +35,7 @@ ConvexBody As(ConvexBody hull, Kind kind) {
 ConvexBody Dense(const ConvexBody& body, int count, double radius, std::mt19937* random) {
   Eigen::Matrix3Xd points(3, count);
   for (auto p : points.colwise()) {
-    const Vector3d d = Direction(random);
+    const Vector3d d = RandomDirection(random);
     p = SupportPoint(body, d) + radius * d;
   }
   return MakeHull(points);
@@ -65,7 +60,7 @@ void Support(benchmark::State& state) {
       As(Dense(MakeBox({0.1, 0.1, 0.3}), static_cast<int>(state.range(0)), 0.02, &random),
          KindOf(state));
   std::vector<Vector3d> directions;
-  for (int i = 0; i < 1024; ++i) directions.push_back(Direction(&random));
+  for (int i = 0; i < 1024; ++i) directions.push_back(RandomDirection(&random));
   size_t i = 0;
   for (auto _ : state) {
     benchmark::DoNotOptimize(FarthestVertex(hull, directions[i++ % directions.size()]));
@@ -107,14 +102,7 @@ BENCHMARK(Bake)
 // All that a walk misses whose thighs meet the waist at every instant.
 void InfeasibleStart(benchmark::State& state) {
   const RobotModel robot = DenseRobot(static_cast<int>(state.range(0)), 0.03, KindOf(state));
-  const double y = 0.5 * robot.standing_width;
-  const HalfStepSequence sequence =
-      MakeSequence({Foothold::Level({0, y, 0}), Foothold::Level({0, -y, 0})},
-                   {{.side = Side::kLeft,
-                     .X_WF = Foothold::Level({0.2, y, 0}),
-                     .via_height = 0.25,
-                     .duration = 2}},
-                   0.24, {}, std::make_shared<Lipm>(robot.com_height));
+  const HalfStepSequence sequence = OneStep(robot);
   const SuperposedWalk walk(sequence, PlannedMotion(sequence));
   const MarginEvaluator evaluator(robot, {}, {});
   size_t missed = 0;

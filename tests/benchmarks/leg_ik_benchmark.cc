@@ -30,12 +30,16 @@ struct Postures {
   std::vector<Eigen::Isometry3d> X_BSole;
 };
 
-void BM_SolveLegIk(benchmark::State& state, const std::string& robot) {
-  const Postures postures(robot);
+// Calls `ask` with one posture's index after the other.
+template <typename Ask>
+void AskOfEach(benchmark::State& state, const Ask& ask) {
   size_t k = 0;
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(SolveLegIk(postures.leg, postures.X_BSole[k++ % 1024]));
-  }
+  for (auto _ : state) benchmark::DoNotOptimize(ask(k++ % 1024));
+}
+
+void BM_SolveLegIk(benchmark::State& state, const std::string& robot) {
+  const Postures p(robot);
+  AskOfEach(state, [&](size_t k) { return SolveLegIk(p.leg, p.X_BSole[k]); });
 }
 BENCHMARK_CAPTURE(BM_SolveLegIk, hrp2, "hrp2");
 BENCHMARK_CAPTURE(BM_SolveLegIk, wren, "wren");
@@ -57,49 +61,36 @@ void BM_SolveLegIkWalking(benchmark::State& state) {
         Eigen::Vector3d(0.2 * unit(random), 0.1 * unit(random), 0.1 + 0.09 * unit(random));
     X.rotate(Eigen::AngleAxisd(0.3 * unit(random), Eigen::Vector3d::UnitZ()));
   }
-  size_t k = 0;
-  for (auto _ : state) benchmark::DoNotOptimize(SolveLegIk(leg, X_BSole[k++ % 1024]));
+  AskOfEach(state, [&](size_t k) { return SolveLegIk(leg, X_BSole[k]); });
 }
 BENCHMARK(BM_SolveLegIkWalking)->DenseRange(0, 3);
 
 void BM_SolveLegIkAll(benchmark::State& state) {
-  const Postures postures;
-  size_t k = 0;
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(SolveLegIkAll(postures.leg, postures.X_BSole[k++ % 1024]));
-  }
+  const Postures p;
+  AskOfEach(state, [&](size_t k) { return SolveLegIkAll(p.leg, p.X_BSole[k]); });
 }
 BENCHMARK(BM_SolveLegIkAll);
 
 void BM_LegForwardKinematics(benchmark::State& state) {
-  const Postures postures;
-  size_t k = 0;
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(LegForwardKinematics(postures.leg, postures.q[k++ % 1024]));
-  }
+  const Postures p;
+  AskOfEach(state, [&](size_t k) { return LegForwardKinematics(p.leg, p.q[k]); });
 }
 BENCHMARK(BM_LegForwardKinematics);
 
 void BM_LegJacobian(benchmark::State& state) {
-  const Postures postures;
-  size_t k = 0;
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(LegJacobian(postures.leg, postures.q[k++ % 1024]));
-  }
+  const Postures p;
+  AskOfEach(state, [&](size_t k) { return LegJacobian(p.leg, p.q[k]); });
 }
 BENCHMARK(BM_LegJacobian);
 
 void BM_LegIkDerivative(benchmark::State& state) {
-  const Postures postures;
+  const Postures p;
   const Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
   Eigen::Matrix<double, 6, 8> dq = Eigen::Matrix<double, 6, 8>::Zero();
-  size_t k = 0;
-  for (auto _ : state) {
-    const size_t i = k++ % 1024;
-    benchmark::DoNotOptimize(
-        LegIkDerivative(postures.leg, postures.q[i], X_WB, postures.X_BSole[i], &dq));
-    benchmark::DoNotOptimize(dq);
-  }
+  AskOfEach(state, [&](size_t k) {
+    benchmark::DoNotOptimize(LegIkDerivative(p.leg, p.q[k], X_WB, p.X_BSole[k], &dq));
+    return dq;
+  });
 }
 BENCHMARK(BM_LegIkDerivative);
 

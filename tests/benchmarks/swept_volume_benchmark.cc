@@ -11,7 +11,6 @@
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <numbers>
 #include <set>
 #include <sstream>
 #include <vector>
@@ -19,6 +18,7 @@
 #include "planner/collision/collision_world.h"
 #include "planner/swept/box_tree_obj.h"
 #include "planner/swept/swept_volume_cache.h"
+#include "tests/benchmarks/wavy_ball.h"
 #include "tests/planner/swept_volume_draws.h"
 #include "wpg/motion/half_step_tracks.h"
 #include "wpg/motion/lipm.h"
@@ -53,27 +53,6 @@ const SweptVolumes& Volumes(double cell, bool few) {
   return all.emplace(std::pair(cell, few), *std::move(cached.volumes)).first->second;
 }
 
-// A wavy closed surface of 2·n·(n − 1) triangles, 0.2 m across, without caps.
-TriangleMesh WavyBall(int n) {
-  TriangleMesh mesh;
-  mesh.vertices.resize(3, n * n);
-  mesh.triangles.resize(3, 2 * n * (n - 1));
-  int t = 0;
-  for (int i = 0; i < n; ++i) {
-    for (int j = 0; j < n; ++j) {
-      const double polar = std::numbers::pi * (i + 0.5) / n, around = 2 * std::numbers::pi * j / n;
-      const double r = 0.2 + 0.02 * std::sin(5 * around) * std::sin(7 * polar);
-      mesh.vertices.col(i * n + j) << r * std::sin(polar) * std::cos(around),
-          r * std::sin(polar) * std::sin(around), r * std::cos(polar);
-      const int next = (j + 1) % n;
-      if (i + 1 == n) continue;
-      mesh.triangles.col(t++) << i * n + j, (i + 1) * n + j, (i + 1) * n + next;
-      mesh.triangles.col(t++) << i * n + j, (i + 1) * n + next, i * n + next;
-    }
-  }
-  return mesh;
-}
-
 enum Kind { kBoxes, kMixed, kMeshes };
 
 // Fifty boxes; fifty of all primitives; twelve meshes of 5000 triangles.
@@ -83,7 +62,7 @@ Scene Room(Kind kind) {
   for (size_t i = 0; i < scene.obstacles.size(); ++i) {
     Obstacle& o = scene.obstacles[i];
     const double radius = draw.Uniform(0.03, 0.2), length = draw.Uniform(0.05, 0.8);
-    if (kind == kMeshes) o.shape = WavyBall(51);
+    if (kind == kMeshes) o.shape = WavyBall(51, 0.2);
     if (kind != kMixed) continue;
     if (i % 4 == 1) o.shape = Sphere{radius};
     if (i % 4 == 2) o.shape = Capsule{radius, length};

@@ -8,6 +8,7 @@
 #include "smoothing/methods/dichotomy.h"
 #include "smoothing/proof/sampled_feasibility.h"
 #include "tests/smoothing/smoothed.h"
+#include "tests/smoothing/test_walks.h"
 #include "wpg/motion/posture.h"
 
 namespace halfstep {
@@ -15,14 +16,6 @@ namespace {
 
 Experiment Load(const std::string& name) {
   return Prepare(LoadConfig(HALFSTEP_SOURCE_DIR "/experiments/configs/" + name + ".yaml", {}));
-}
-
-HomotopyParameters Overlapped(const HalfStepSequence& sequence, double fraction) {
-  HomotopyParameters parameters = PlannedMotion(sequence);
-  for (int i = 0; i < sequence.num_junctions(); ++i) {
-    parameters.overlaps[static_cast<size_t>(i)] = fraction * NaturalOverlapBound(parameters, i);
-  }
-  return parameters;
 }
 
 // Instants that go through the walk again and again.
@@ -67,28 +60,30 @@ void WalkAndJointsWithDerivatives(benchmark::State& state) {
 }
 BENCHMARK(WalkAndJointsWithDerivatives);
 
-// Verdict only, then all values, at one instant.
-void MarginVerdict(benchmark::State& state) {
+// Calls `ask` at one instant after the other.
+template <typename Ask>
+void AskMargins(benchmark::State& state, const Ask& ask) {
   const Experiment e = Load("bar_8cm");
   const MarginEvaluator evaluator(e.robot, e.scene, e.config.smoothing.limits);
   const SuperposedWalk walk(e.sequence, Overlapped(e.sequence, 0.6));
   Instants instants(walk);
   MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
   for (auto _ : state) {
-    benchmark::DoNotOptimize(evaluator.FirstViolation(walk, instants.Next(), &scratch));
+    benchmark::DoNotOptimize(ask(evaluator, walk, instants.Next(), &scratch));
   }
+}
+
+void MarginVerdict(benchmark::State& state) {
+  AskMargins(state, [](const MarginEvaluator& evaluator, const auto&... at) {
+    return evaluator.FirstViolation(at...);
+  });
 }
 BENCHMARK(MarginVerdict);
 
 void MarginValues(benchmark::State& state) {
-  const Experiment e = Load("bar_8cm");
-  const MarginEvaluator evaluator(e.robot, e.scene, e.config.smoothing.limits);
-  const SuperposedWalk walk(e.sequence, Overlapped(e.sequence, 0.6));
-  Instants instants(walk);
-  MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(evaluator.At(walk, instants.Next(), &scratch));
-  }
+  AskMargins(state, [](const MarginEvaluator& evaluator, const auto&... at) {
+    return evaluator.At(at...);
+  });
 }
 BENCHMARK(MarginValues);
 

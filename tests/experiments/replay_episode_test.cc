@@ -7,6 +7,8 @@
 #include "experiments/replay/simulation.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/parsed_csv.h"
+#include "tests/live/short_episode.h"
+#include "tests/replaced.h"
 #include "tests/temporary_folder.h"
 
 namespace halfstep {
@@ -16,38 +18,18 @@ using testing::HasSubstr;
 using testing::Not;
 namespace fs = std::filesystem;
 
-// A box beside the way that somebody carries along it, out of the robot's reach and sight. Two
-// half-steps on coarse cells: baked in a moment.
-constexpr const char* kScene =
-    "obstacles:\n"
-    "  - name: box\n"
-    "    box: {size_m: [0.1, 0.3, 0.3]}\n"
-    "    pose: {xyz: [0.45, 2.0, 0.15]}\n";
-constexpr const char* kEpisode =
-    "robot: hrp2\n"
-    "scene: scene.yaml\n"
-    "goal: {x_m: 0.6, y_m: 0.1, radius_m: 0.05}\n"
-    "step_set: {x_min_m: 0, x_max_m: 0.2, y_min_m: -0.21, y_max_m: -0.21,\n"
-    "           spacing_m: 0.2, yaws_rad: [0]}\n"
-    "swept_volumes: {cell_m: 0.05, displacement_m: 0.05, cache: cache}\n"
-    "planner: {unimproved_nodes: 0, max_nodes: 2000}\n"
-    "live:\n"
+// Of the box beside the way, which somebody carries along it, out of the robot's reach and sight.
+constexpr const char* kScript =
     "  script:\n"
     "    - {at_s: 0.1, do: lose, for_s: 10}\n"
     "    - {at_s: 0.5, do: carry, obstacle: box, xyz: [0.45, 1.5, 0.15], speed_m_s: 1}\n";
-
-std::string With(std::string text, const std::string& from, const std::string& to) {
-  const size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return at == std::string::npos ? text : text.replace(at, from.size(), to);
-}
 
 /// An episode in the folder `episode`.
 class ReplayEpisodeTest : public testing::Test {
  protected:
   void SetUp() override {
-    WriteText(place_ / "scene.yaml", kScene);
-    WriteText(place_ / "walk.yaml", kEpisode);
+    WriteText(place_ / "scene.yaml", BoxAside("2.0"));
+    WriteText(place_ / "walk.yaml", kShortEpisode + std::string(kScript));
     const Outcome live =
         Halfstep(place_.path(), {"live", "walk.yaml", "--out", "episode", "--quiet"});
     ASSERT_EQ(live.status, kSuccess) << live.err;
@@ -55,7 +37,7 @@ class ReplayEpisodeTest : public testing::Test {
   // Makes the script tell of something that was not sensed.
   void Tell(const std::string& from, const std::string& to) {
     const fs::path config = place_ / "episode/config.yaml";
-    WriteText(config, With(ReadText(config), from, to));
+    WriteText(config, Replaced(ReadText(config), from, to));
   }
   Outcome Replay(const std::vector<std::string>& more) {
     std::vector<std::string> words = {"replay", "episode"};
@@ -128,9 +110,9 @@ TEST_F(ReplayEpisodeTest, CountsTheTimeThatTheRobotWaited) {
   Tell("xyz: [0.45, 1.5, 0.15]", "xyz: [0.74, 0.0, 0.15]");
   EXPECT_THAT(Replay({}).out, Not(HasSubstr("touches at rest")));
   const fs::path manifest = place_ / "episode/manifest.json";
-  WriteText(manifest, With(ReadText(manifest), "\"waited_s\": 0.0", "\"waited_s\": 5.0"));
+  WriteText(manifest, Replaced(ReadText(manifest), "\"waited_s\": 0.0", "\"waited_s\": 5.0"));
   EXPECT_THAT(Replay({}).out, HasSubstr("touches at rest: "));
-  WriteText(manifest, With(ReadText(manifest), "\"waited_s\": 5.0", "\"waited_s\": \"long\""));
+  WriteText(manifest, Replaced(ReadText(manifest), "\"waited_s\": 5.0", "\"waited_s\": \"long\""));
   const Outcome outcome = Replay({});
   EXPECT_EQ(outcome.status, kBadInput);
   EXPECT_THAT(outcome.err, HasSubstr("manifest.json: waited_s: is missing or no number"));

@@ -13,6 +13,7 @@
 #include <string>
 #include <thread>
 
+#include "tests/refusal_of.h"
 #include "tests/temporary_folder.h"
 
 namespace halfstep {
@@ -33,15 +34,6 @@ void MakeRun(const fs::path& path, const std::string& text, bool overwrite = fal
   RunFolder folder(path, overwrite);
   WriteRun(&folder, text);
   folder.Publish();
-}
-
-std::string RefusalOf(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "";
 }
 
 TEST(RunFolder, AppearsWholeAndOnlyWhenPublished) {

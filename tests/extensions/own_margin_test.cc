@@ -37,7 +37,7 @@ Methods WithComSpeed() {
 
 ExperimentConfig Load(const std::vector<YamlOverride>& overrides, const Methods& methods) {
   return LoadConfig(HALFSTEP_SOURCE_DIR "/experiments/configs/fig3_two_half_steps.yaml", overrides,
-                    methods);
+                    {methods});
 }
 
 class OwnMarginTest : public testing::Test {

@@ -7,13 +7,10 @@ using namespace halfstep;
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   static const std::string path = HALFSTEP_SOURCE_DIR "/experiments/configs/fuzz.yaml";
-  const auto write = [](ExperimentConfig config) {
-    return WriteYaml([&config](Fields& fields) { DeclareFields(fields, &config); });
-  };
   ExperimentConfig config;
   if (!fuzz::Reads(path, [&] { config = ParseConfig(path, fuzz::Text(data, size), {}); })) return 0;
-  const std::string written = write(config);
-  fuzz::Require(write(ParseConfig(path, written, {})) == written, "written and read differs",
-                written);
+  const std::string written = fuzz::Written(config);
+  fuzz::Require(fuzz::Written(ParseConfig(path, written, {})) == written,
+                "written and read differs", written);
   return 0;
 }

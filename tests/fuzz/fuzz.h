@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "wpg/files/input_error.h"
+#include "wpg/files/yaml_fields.h"
 
 /// What libFuzzer calls with every input; each target defines it.
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size);
@@ -40,6 +41,12 @@ bool Reads(const std::string& path, const Read& read) {
     }
     return false;
   }
+}
+
+/// A config as YAML.
+template <typename Config>
+std::string Written(Config config) {
+  return WriteYaml([&config](Fields& fields) { DeclareFields(fields, &config); });
 }
 
 /// Cuts a text at its first line "--- 8< ---": [0] is before it, [1] behind, or "".

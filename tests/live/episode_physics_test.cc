@@ -11,6 +11,7 @@
 #include "experiments/replay/simulation.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/parsed_csv.h"
+#include "tests/live/short_episode.h"
 #include "tests/live/small_episode.h"
 #include "tests/temporary_folder.h"
 
@@ -173,28 +174,13 @@ TEST(EpisodePhysicsTest, SeesTheWorldFromItsSupportFoot) {
   EXPECT_GT((seen.translation() - Eigen::Vector3d(1.0, 1.5, 0.02)).norm(), 0.005);
 }
 
-constexpr const char* kEpisode =
-    "robot: hrp2\n"
-    "scene: scene.yaml\n"
-    "goal: {x_m: 0.6, y_m: 0.1, radius_m: 0.05}\n"
-    "step_set: {x_min_m: 0, x_max_m: 0.2, y_min_m: -0.21, y_max_m: -0.21,\n"
-    "           spacing_m: 0.2, yaws_rad: [0]}\n"
-    "swept_volumes: {cell_m: 0.05, displacement_m: 0.05, cache: cache}\n"
-    "planner: {unimproved_nodes: 0, max_nodes: 2000}\n"
-    "live:\n"
-    "  horizon_s: 3\n"
-    "  drift_m_s: 0.001\n"
-    "  sensing: {error_m: 0.012}\n";
-constexpr const char* kScene =
-    "obstacles:\n"
-    "  - name: box\n"
-    "    box: {size_m: [0.1, 0.3, 0.3]}\n"
-    "    pose: {xyz: [0.45, 1.5, 0.15]}\n";
-
 TEST(LiveInPhysicsCommand, WritesAFolderThatVerifiesAndReplaysOrSaysWhyNot) {
   const TemporaryFolder place;
-  WriteText(place / "scene.yaml", kScene);
-  WriteText(place / "walk.yaml", kEpisode);
+  WriteText(place / "scene.yaml", BoxAside("1.5"));
+  WriteText(place / "walk.yaml", std::string(kShortEpisode) +
+                                     "  horizon_s: 3\n"
+                                     "  drift_m_s: 0.001\n"
+                                     "  sensing: {error_m: 0.012}\n");
   const Outcome live =
       Halfstep(place.path(), {"live", "walk.yaml", "--in-physics", "--out", "episode", "--json"});
   if (!WhyNoSimulation().empty()) {

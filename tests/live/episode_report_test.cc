@@ -14,7 +14,7 @@
 #include "experiments/report/report_page.h"
 #include "experiments/run/exit_status.h"
 #include "tests/experiments/child_process.h"
-#include "tests/live/small_episode.h"
+#include "tests/live/small_files.h"
 #include "tests/temporary_folder.h"
 
 namespace halfstep {
@@ -73,15 +73,8 @@ class WrittenEpisode : public EpisodeReportTest {
   void SetUp() override {
     EpisodeReportTest::SetUp();
     if (IsSkipped()) return;
-    SmallWorld::Get();  // bakes what the commands read from the cache
-    std::string text = kSmallConfig;
-    text.replace(text.find("scene: none"), 11, "scene: bar.yaml");
-    text.replace(text.find("live: {"), 7,
-                 "live: {script: [{at_s: 1.2, do: jump, obstacle: bar, xyz: [0.75, 0.1, 0.02]}], ");
-    WriteText(place_ / "small.yaml", text);
-    WriteText(place_ / "bar.yaml",
-              "name: bar\nobstacles:\n  - {name: bar, box: {size_m: [0.03, 0.3, 0.04]}, "
-              "pose: {xyz: [0.75, 2.0, 0.02]}}\n");
+    WriteSmallWorld(place_.path(),
+                    "script: [{at_s: 1.2, do: jump, obstacle: bar, xyz: [0.75, 0.1, 0.02]}], ");
     const Outcome outcome =
         Halfstep(place_.path(), {"live", "small.yaml", "--out", "one", "--quiet"});
     ASSERT_EQ(outcome.status, kSuccess) << outcome.err;

@@ -11,7 +11,7 @@
 #include "experiments/live/episode_journal.h"
 #include "experiments/run/exit_status.h"
 #include "tests/experiments/child_process.h"
-#include "tests/live/small_episode.h"
+#include "tests/live/small_files.h"
 #include "tests/temporary_folder.h"
 
 namespace halfstep {
@@ -22,16 +22,9 @@ using testing::HasSubstr;
 
 // The small world by the wall clock, with a bar that jumps into the way.
 void WriteEpisodeFiles(const TemporaryFolder& place) {
-  SmallWorld::Get();  // bakes what the commands read from the cache
-  std::string text = kSmallConfig;
-  text.replace(text.find("scene: none"), 11, "scene: bar.yaml");
-  text.replace(text.find("live: {"), 7,
-               "live: {clock: wall, "
-               "script: [{at_s: 1.2, do: jump, obstacle: bar, xyz: [0.75, 0.1, 0.02]}], ");
-  std::ofstream(place / "small.yaml") << text;
-  std::ofstream(place / "bar.yaml")
-      << "name: bar\nobstacles:\n  - {name: bar, box: {size_m: [0.03, 0.3, 0.04]}, "
-         "pose: {xyz: [0.75, 2.0, 0.02]}}\n";
+  WriteSmallWorld(place.path(),
+                  "clock: wall, "
+                  "script: [{at_s: 1.2, do: jump, obstacle: bar, xyz: [0.75, 0.1, 0.02]}], ");
 }
 
 // Returns when the robot has walked for `seconds`, as its journal says.

@@ -10,31 +10,50 @@
 namespace halfstep {
 namespace {
 
+// The small world's robot, and a first walk to a goal ahead.
+struct FirstWalk {
+  const SmallWorld& small = SmallWorld::Get();
+  const MarginLimits& limits = small.config.experiment.smoothing.limits;
+  const Replanner replanner{small.place, small.config, *small.baked.cached.volumes};
+  std::mt19937_64 random{1};
+  World world;
+  Proposal walk;
+
+  explicit FirstWalk(double goal_x, int ahead = 0) {
+    world.goal.X_WG = {goal_x, 0.0, 0.0};
+    world.goal.radius = 0.15;
+    walk = Begin(small.start, ahead);
+    EXPECT_EQ(walk.kind, ProposalKind::kChanged) << walk.reason;
+    world.version = 1;
+  }
+  Proposal Begin(const std::array<Foothold, 2>& stance, int ahead = 0) {
+    return replanner.Begin(stance, *replanner.Prepare(world), ahead, random);
+  }
+  // What is proposed when this half-step has begun.
+  Proposal Propose(int begun, double now, bool stopped = false, int used_up = 0) {
+    return replanner.Propose({.plan = walk.plan,
+                              .smoothed = walk.smoothed,
+                              .grant = walk.grant,
+                              .robot_through = walk.robot_through,
+                              .begun = begun,
+                              .stopped = stopped,
+                              .now = now,
+                              .hand_over = now + 0.1,
+                              .world = std::make_shared<const World>(world),
+                              .used_up = used_up},
+                             *replanner.Prepare(world), random);
+  }
+};
+
 // A walk whose goal has gone where the search cannot get.
 TEST(ReplannerTest, AllSearchesOfAProposalShareTheNodes) {
-  const SmallWorld& small = SmallWorld::Get();
-  const Replanner replanner(small.place, small.config, *small.baked.cached.volumes);
-  std::mt19937_64 random(1);
-  World world;
-  world.goal.X_WG = {1.2, 0.0, 0.0};
-  world.goal.radius = 0.15;
-  const Proposal walk = replanner.Begin(small.start, *replanner.Prepare(world), 4, random);
-  ASSERT_EQ(walk.kind, ProposalKind::kChanged) << walk.reason;
-  world.version = 1;
-  world.goal.X_WG.x = 100.0;
+  FirstWalk first(1.2, 4);
+  first.world.goal.X_WG.x = 100.0;
   for (const int used_up : {0, 1, 2}) {
-    const Proposal proposal = replanner.Propose({.plan = walk.plan,
-                                                 .smoothed = walk.smoothed,
-                                                 .grant = walk.grant,
-                                                 .robot_through = walk.robot_through,
-                                                 .now = 0.1,
-                                                 .hand_over = 0.2,
-                                                 .world = nullptr,
-                                                 .used_up = used_up},
-                                                *replanner.Prepare(world), random);
+    const Proposal proposal = first.Propose(0, 0.1, /*stopped=*/false, used_up);
     EXPECT_EQ(proposal.kind, ProposalKind::kUnsafe);
     EXPECT_EQ(proposal.planned.status, PlanStatus::kBudget);
-    EXPECT_EQ(proposal.nodes, small.config.experiment.planner.max_nodes);
+    EXPECT_EQ(proposal.nodes, first.small.config.experiment.planner.max_nodes);
   }
 }
 
@@ -108,75 +127,39 @@ void ExpectDrawsAway(const Proposal& proposal, const Scene& scene, int first) {
 // What is demanded cannot be kept where the robot stands. It may go where it gets no nearer than
 // that, by 1 mm, as long as it touches nothing.
 TEST(ReplannerTest, ARobotThatStandsTooNearDrawsAway) {
-  const SmallWorld& small = SmallWorld::Get();
-  const Replanner replanner(small.place, small.config, *small.baked.cached.volumes);
-  const MarginLimits& limits = small.config.experiment.smoothing.limits;
-  std::mt19937_64 random(1);
-  World world;
-  world.goal.X_WG = {1.2, 0.0, 0.0};
-  world.goal.radius = 0.15;
-  const Proposal first = replanner.Begin(small.start, *replanner.Prepare(world), 0, random);
-  ASSERT_EQ(first.kind, ProposalKind::kChanged) << first.reason;
-  const SuperposedWalk begun = first.plan.Walk();
-  const double now = begun.end_of(1) + 1.0;
-  world.version = 1;
+  FirstWalk first(1.2);
+  const double now = first.walk.plan.Walk().end_of(1) + 1.0;
   for (const double gap : {0.002, -0.001}) {
-    world.scene = BesideLeftFoot(first.plan, small.place.robot, limits, gap);
-    const Proposal proposal = replanner.Propose({.plan = first.plan,
-                                                 .smoothed = first.smoothed,
-                                                 .grant = first.grant,
-                                                 .robot_through = first.robot_through,
-                                                 .begun = 1,
-                                                 .stopped = true,
-                                                 .now = now,
-                                                 .hand_over = now + 0.1,
-                                                 .world = std::make_shared<const World>(world)},
-                                                *replanner.Prepare(world), random);
+    first.world.scene = BesideLeftFoot(first.walk.plan, first.small.place.robot, first.limits, gap);
+    const Proposal proposal = first.Propose(1, now, /*stopped=*/true);
     if (gap < 0.0) {
       EXPECT_EQ(proposal.kind, ProposalKind::kUnsafe);
       EXPECT_TRUE(proposal.grant.near.empty());
       continue;
     }
-    ExpectDrawsAway(proposal, world.scene, 2);
+    ExpectDrawsAway(proposal, first.world.scene, 2);
   }
 }
 
 // Nothing was stopped: the walk has ended, or there was none.
 TEST(ReplannerTest, ItDrawsAwayBeforeAFirstWalkAndAfterAFinishedOne) {
-  const SmallWorld& small = SmallWorld::Get();
-  const Replanner replanner(small.place, small.config, *small.baked.cached.volumes);
-  const MarginLimits& limits = small.config.experiment.smoothing.limits;
-  std::mt19937_64 random(1);
-  World world;
-  world.goal.X_WG = {0.5, 0.0, 0.0};
-  world.goal.radius = 0.15;
-  const Proposal walked = replanner.Begin(small.start, *replanner.Prepare(world), 0, random);
-  ASSERT_EQ(walked.kind, ProposalKind::kChanged) << walked.reason;
-  const int last = walked.plan.sequence.size() - 1;
-  const double now = walked.plan.Walk().duration() + 1.0;
-  world.version = 1;
-  world.goal.X_WG = {1.7, 0.0, 0.0};
+  FirstWalk first(0.5);
+  const WalkPlan& plan = first.walk.plan;
+  const int last = plan.sequence.size() - 1;
+  const double now = plan.Walk().duration() + 1.0;
+  first.world.goal.X_WG = {1.7, 0.0, 0.0};
   for (const double gap : {0.006, 0.002, -0.001}) {
-    world.scene = BesideLeftFoot(walked.plan, small.place.robot, limits, gap, last);
-    const Proposal on = replanner.Propose({.plan = walked.plan,
-                                           .smoothed = walked.smoothed,
-                                           .grant = walked.grant,
-                                           .robot_through = walked.robot_through,
-                                           .begun = last,
-                                           .now = now,
-                                           .hand_over = now + 0.1,
-                                           .world = std::make_shared<const World>(world)},
-                                          *replanner.Prepare(world), random);
-    const std::array<Foothold, 2> stance = StanceAfter(walked.plan.sequence, last);
-    const Proposal anew = replanner.Begin(stance, *replanner.Prepare(world), 0, random);
-    if (gap > limits.demanded_of(MarginFamily::kClearance)) {
+    first.world.scene = BesideLeftFoot(plan, first.small.place.robot, first.limits, gap, last);
+    const Proposal on = first.Propose(last, now);
+    const Proposal anew = first.Begin(StanceAfter(plan.sequence, last));
+    if (gap > first.limits.demanded_of(MarginFamily::kClearance)) {
       // Swept volumes, which are larger, leave no way.
       EXPECT_NE(on.kind, ProposalKind::kUnsafe);
       EXPECT_NE(anew.kind, ProposalKind::kUnsafe);
       EXPECT_TRUE(on.grant.near.empty() && anew.grant.near.empty());
     } else if (gap > 0.0) {
-      ExpectDrawsAway(on, world.scene, last + 1);
-      ExpectDrawsAway(anew, world.scene, 0);
+      ExpectDrawsAway(on, first.world.scene, last + 1);
+      ExpectDrawsAway(anew, first.world.scene, 0);
     } else {
       EXPECT_EQ(on.kind, ProposalKind::kUnsafe);
       EXPECT_EQ(anew.kind, ProposalKind::kUnsafe);

@@ -10,20 +10,18 @@
 #include <thread>
 #include <vector>
 
+#include "tests/draws.h"
+
 namespace halfstep {
 namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-double Between(std::mt19937* random, double lower, double upper) {
-  return std::uniform_real_distribution<double>(lower, upper)(*random);
-}
-
 Isometry3d RandomPose(double reach, std::mt19937* random) {
-  const double x = Between(random, -reach, reach), y = Between(random, -reach, reach);
-  const double roll = Between(random, -1, 1), yaw = Between(random, -3, 3);
-  return Eigen::Translation3d(x, y, Between(random, 0, 0.5)) *
+  const double x = Uniform(random, -reach, reach), y = Uniform(random, -reach, reach);
+  const double roll = Uniform(random, -1, 1), yaw = Uniform(random, -3, 3);
+  return Eigen::Translation3d(x, y, Uniform(random, 0, 0.5)) *
          Eigen::AngleAxisd(yaw, Vector3d::UnitZ()) * Eigen::AngleAxisd(roll, Vector3d::UnitX());
 }
 
@@ -40,7 +38,7 @@ Scene RandomRoom(int count, std::mt19937* random) {
   for (int i = 0; i < count; ++i) {
     Obstacle obstacle;
     obstacle.name = "obstacle " + std::to_string(i);
-    const double r = Between(random, 0.01, 0.1), l = Between(random, 0.05, 0.4);
+    const double r = Uniform(random, 0.01, 0.1), l = Uniform(random, 0.05, 0.4);
     if (i % 5 == 0) obstacle.shape = Box{{r, l, 0.1}};
     if (i % 5 == 1) obstacle.shape = Cylinder{r, l};
     if (i % 5 == 2) obstacle.shape = Capsule{r, l};
@@ -141,14 +139,18 @@ TEST(CollisionWorld, EmptyAndFarWorldsAreFree) {
   EXPECT_FALSE(world.Clears(body, Isometry3d::Identity(), 0.0, 2.41, &scratch));
 }
 
+// A ball 1 m ahead.
+Scene OneBall(const ObstacleMotion& motion) {
+  Scene scene;
+  scene.obstacles.push_back({.name = "ball", .shape = Sphere{0.05}, .motion = motion});
+  scene.obstacles.back().X_WO = Isometry3d(Eigen::Translation3d(1, 0, 0));
+  return scene;
+}
+
 // What an obstacle may do in half of the interval counts where it is looked for, too: measured just
 // now, it may come 10 cm nearer in either half, from 5 cm away.
 TEST(CollisionWorld, FindsAnObstacleThatComesNearOnlyWithinTheInterval) {
-  Scene scene;
-  scene.obstacles.push_back(
-      {.name = "ball", .shape = Sphere{0.05}, .motion = {.speed = 2.0, .measured_at = 1.0}});
-  scene.obstacles.back().X_WO = Isometry3d(Eigen::Translation3d(1, 0, 0));
-  const CollisionWorld world(scene);
+  const CollisionWorld world(OneBall({.speed = 2.0, .measured_at = 1.0}));
   const CollisionShape body(Sphere{0.1});
   const Isometry3d X_WB(Eigen::Translation3d(0.8, 0, 0));
   CollisionWorld::Scratch scratch;
@@ -163,10 +165,7 @@ TEST(CollisionWorld, FindsAnObstacleThatComesNearOnlyWithinTheInterval) {
 
 // Beyond its bounds by its error alone, which the cull of far obstacles must count.
 TEST(CollisionWorld, FindsAnObstacleThatIsNearByItsErrorAlone) {
-  Scene scene;
-  scene.obstacles.push_back({.name = "ball", .shape = Sphere{0.05}, .motion = {.error = 0.3}});
-  scene.obstacles.back().X_WO = Isometry3d(Eigen::Translation3d(1, 0, 0));
-  const CollisionWorld world(scene);
+  const CollisionWorld world(OneBall({.error = 0.3}));
   const CollisionShape body(Sphere{0.1});
   const Isometry3d X_WB(Eigen::Translation3d(0.6, 0, 0));
   CollisionWorld::Scratch scratch;

@@ -4,6 +4,7 @@
 
 #include "planner/scene/scene.h"
 #include "planner/scene/simple_polygon.h"
+#include "planner/search/footstep_planner.h"
 #include "planner/search/half_step_query.h"
 #include "planner/search/step_set.h"
 #include "wpg/geometry/foothold.h"
@@ -126,6 +127,18 @@ inline FlatWorld WallWithGap(double gap_y, double gap) {
     if (std::abs(y - gap_y) >= 0.5 * gap) world.poles.push_back({{1.0, y}, 0.03});
   }
   return world;
+}
+
+/// Asks for the first plan within 20 000 nodes, from feet side by side.
+inline PlanRequest RequestTo(const Pose2& goal, const StepSet& set, const HalfStepQuery& query) {
+  PlanRequest request{
+      .start = {Foothold::Level({0.0, 0.1, 0.0}), Foothold::Level({0.0, -0.1, 0.0})},
+      .goal = {},
+      .set = set,
+      .query = query};
+  request.goal.X_WG = goal;
+  request.stop = AnyOf({AtFirstPlan(), AfterNodes(20000)});
+  return request;
 }
 
 }  // namespace halfstep

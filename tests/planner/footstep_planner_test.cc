@@ -21,17 +21,6 @@
 namespace halfstep {
 namespace {
 
-PlanRequest RequestTo(const Pose2& goal, const StepSet& set, const HalfStepQuery& query) {
-  PlanRequest request{
-      .start = {Foothold::Level({0.0, 0.1, 0.0}), Foothold::Level({0.0, -0.1, 0.0})},
-      .goal = {},
-      .set = set,
-      .query = query};
-  request.goal.X_WG = goal;
-  request.stop = AnyOf({AtFirstPlan(), AfterNodes(20000)});
-  return request;
-}
-
 TEST(GoalRegion, ContainsItsBorderAndTurnsWithItsFrame) {
   GoalRegion goal;
   goal.X_WG = {1.0, 2.0, 0.5};

@@ -9,6 +9,7 @@
 
 #include "planner/collision/collision_world.h"
 #include "planner/scene/scene.h"
+#include "tests/draws.h"
 
 namespace halfstep {
 namespace {
@@ -16,31 +17,27 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-double Drawn(std::mt19937* random, double lower, double upper) {
-  return std::uniform_real_distribution<double>(lower, upper)(*random);
-}
-
 Vector3d DrawnPoint(std::mt19937* random, double reach) {
-  const double x = Drawn(random, -reach, reach), y = Drawn(random, -reach, reach);
-  return {x, y, Drawn(random, -reach, reach)};
+  const double x = Uniform(random, -reach, reach), y = Uniform(random, -reach, reach);
+  return {x, y, Uniform(random, -reach, reach)};
 }
 
 Isometry3d DrawnPose(std::mt19937* random, double reach) {
   return Eigen::Translation3d(DrawnPoint(random, reach)) *
-         Eigen::AngleAxisd(Drawn(random, -3, 3), DrawnPoint(random, 1).normalized());
+         Eigen::AngleAxisd(Uniform(random, -3, 3), DrawnPoint(random, 1).normalized());
 }
 
 ObstacleMotion DrawnMotion(std::mt19937* random) {
   ObstacleMotion motion;
   double t = 0.0;
   for (int i = 0; i < 4; ++i) {
-    t += Drawn(random, 0.2, 1.5);
-    motion.waypoints.push_back({t, DrawnPoint(random, 1), Drawn(random, -4, 4)});
+    t += Uniform(random, 0.2, 1.5);
+    motion.waypoints.push_back({t, DrawnPoint(random, 1), Uniform(random, -4, 4)});
   }
-  motion.error = Drawn(random, 0, 0.02);
-  motion.speed = Drawn(random, 0, 0.2);
-  motion.measured_at = Drawn(random, -1, 2);
-  if (random->operator()() % 2 == 0) motion.horizon = Drawn(random, 0, 3);
+  motion.error = Uniform(random, 0, 0.02);
+  motion.speed = Uniform(random, 0, 0.2);
+  motion.measured_at = Uniform(random, -1, 2);
+  if (random->operator()() % 2 == 0) motion.horizon = Uniform(random, 0, 3);
   return motion;
 }
 
@@ -76,7 +73,7 @@ TEST(ObstacleMotion, RatesAreThoseOfDifferences) {
   for (int i = 0; i < 300; ++i) {
     const ObstacleMotion motion = DrawnMotion(&random);
     const Isometry3d X_WO = DrawnPose(&random, 1);
-    const double t = Drawn(&random, -1, 7);
+    const double t = Uniform(&random, -1, 7);
     const Vector3d p_O = DrawnPoint(&random, 0.5);
     const Vector3d velocity = motion.VelocityAt(X_WO, t, motion.PoseAt(X_WO, t) * p_O);
     // Towards later times, so a waypoint in between is a chance of 1e-6.
@@ -96,7 +93,7 @@ TEST(ObstacleMotion, NoPointIsFasterOrFartherThanItsBounds) {
     const Vector3d p_O = DrawnPoint(&random, 0.5);
     const double speed = motion.WaypointSpeed(X_WO, p_O.norm());
     for (int k = 0; k < 20; ++k) {
-      const double a = Drawn(&random, -1, 7), b = Drawn(&random, -1, 7);
+      const double a = Uniform(&random, -1, 7), b = Uniform(&random, -1, 7);
       const Vector3d p_a = motion.PoseAt(X_WO, a) * p_O, p_b = motion.PoseAt(X_WO, b) * p_O;
       const double way = speed * std::abs(b - a);
       EXPECT_LE((p_a - p_b).norm(), way + 1e-12);
@@ -131,7 +128,7 @@ TEST(ObstacleMotion, TheWorldsMarginIsTheDistanceThenLessTheUncertainty) {
     const Scene scene = DrawnScene(&random);
     const CollisionWorld world(scene);
     const Isometry3d X_WB = DrawnPose(&random, 1);
-    const double t = Drawn(&random, 0, 6);
+    const double t = Uniform(&random, 0, 6);
     double least = 0.3;
     int of = -1;
     for (int o = 0; o < 6; ++o) {
@@ -164,7 +161,7 @@ TEST(ObstacleMotion, WhatClearsWithAHalfWidthClearsAtEveryTimeWithin) {
   for (int i = 0; i < 400; ++i) {
     const CollisionWorld world(DrawnScene(&random));
     const Isometry3d X_WB = DrawnPose(&random, 1);
-    const double t = Drawn(&random, 0, 6), h = Drawn(&random, 0, 0.1);
+    const double t = Uniform(&random, 0, 6), h = Uniform(&random, 0, 0.1);
     CollisionWorld::Scratch scratch;
     const bool now = world.Clears(body, X_WB, t, 0.01, &scratch);
     const bool all = world.Clears(body, X_WB, t, 0.01, &scratch, h);
@@ -197,7 +194,7 @@ TEST(ObstacleMotion, AllLaterByTheSameTimeIsTheSameLater) {
                                        {2.0, obstacle.X_WO.translation()});
     }
     const Isometry3d X_WB = DrawnPose(&random, 1);
-    const double t = Drawn(&random, 0, 6);
+    const double t = Uniform(&random, 0, 6);
     const auto a = CollisionWorld(scene).FindNearest(body, X_WB, t, 0.5);
     const auto b = CollisionWorld(later).FindNearest(body, X_WB, t + 2.0, 0.5);
     EXPECT_EQ(a.obstacle, b.obstacle);

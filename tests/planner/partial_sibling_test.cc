@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "tests/refusal_of.h"
 #include "tests/temporary_folder.h"
 #include "wpg/files/whole_file.h"
 
@@ -21,15 +22,6 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 namespace fs = std::filesystem;
-
-std::string RefusalOf(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "";
-}
 
 // A process that makes a sibling and keeps it until it is killed.
 class Holder {

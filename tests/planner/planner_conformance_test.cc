@@ -23,18 +23,18 @@ struct Bench {
         planner(Planners::Standard().Make(name, scene)) {}
 
   PlanRequest Request(const Pose2& goal, double radius = 0.1) {
-    PlanRequest request{
-        .start = {Foothold::Level({0.0, 0.1, 0.0}), Foothold::Level({0.0, -0.1, 0.0})},
-        .goal = {},
-        .set = set,
-        .query = query};
-    request.goal.X_WG = goal;
+    PlanRequest request = RequestTo(goal, set, query);
     request.goal.radius = radius;
     request.start_is_free = [this](const HalfStep& up, const Foothold& X_WS) {
       return query.StartIsFree(up, X_WS);
     };
-    request.stop = AnyOf({AtFirstPlan(), AfterNodes(20000)});
     return request;
+  }
+  // With a budget and without another end.
+  PlanResult PlanWithin(int nodes, const Pose2& goal) {
+    PlanRequest request = Request(goal);
+    request.stop = AfterNodes(nodes);
+    return Plan(request);
   }
   PlanResult Plan(const PlanRequest& request, std::uint64_t seed = 1) {
     std::mt19937_64 random(seed);
@@ -151,18 +151,14 @@ TEST_P(PlannerConformance, SearchesAllOfATinyRoomAndSaysSo) {
 TEST_P(PlannerConformance, DoesNotEndInAnObstacle) {
   FlatWorld world{.poles = {{{1.2, 0.0}, 0.25}}, .no_step = {}};
   Bench bench(GetParam(), world);
-  PlanRequest request = bench.Request({1.2, 0.0, 0.0});
-  request.stop = AfterNodes(1000);
-  const PlanResult result = bench.Plan(request);
+  const PlanResult result = bench.PlanWithin(1000, {1.2, 0.0, 0.0});
   EXPECT_TRUE(result.status == PlanStatus::kNoPlan || result.status == PlanStatus::kBudget);
   EXPECT_TRUE(result.footsteps.empty());
 }
 
 TEST_P(PlannerConformance, DoesNothingWithoutABudget) {
   Bench bench(GetParam(), {});
-  PlanRequest request = bench.Request({1.0, 0.0, 0.0});
-  request.stop = AfterNodes(0);
-  const PlanResult result = bench.Plan(request);
+  const PlanResult result = bench.PlanWithin(0, {1.0, 0.0, 0.0});
   EXPECT_EQ(result.status, PlanStatus::kBudget);
   EXPECT_EQ(result.stop, StopReason::kBudget);
   EXPECT_EQ(result.nodes, 0);
@@ -172,9 +168,7 @@ TEST_P(PlannerConformance, DoesNothingWithoutABudget) {
 
 TEST_P(PlannerConformance, KeepsToABudgetOfOneNode) {
   Bench bench(GetParam(), {});
-  PlanRequest request = bench.Request({3.0, 0.0, 0.0});
-  request.stop = AfterNodes(1);
-  const PlanResult result = bench.Plan(request);
+  const PlanResult result = bench.PlanWithin(1, {3.0, 0.0, 0.0});
   EXPECT_EQ(result.status, PlanStatus::kBudget);
   EXPECT_EQ(result.nodes, 1);
 }

@@ -55,13 +55,18 @@ Scene Mixed(int count, SweptDraw* draw) {
   return scene;
 }
 
+std::vector<CollisionShape> ShapesOf(const RobotModel& robot) {
+  std::vector<CollisionShape> shapes;
+  for (const RobotBody& body : robot.bodies) shapes.emplace_back(body.shape);
+  return shapes;
+}
+
 // The robot is posed at many instants of what was called free: no body is nearer than δ.
 TEST(SweptVolumeQueryTest, FreeHalfStepsKeepTheClearanceOnBothSidesUpAndDown) {
   const RobotModel& robot = SweptRobot();
   const SweptVolumes& volumes = CoarseVolumes();
   SweptDraw draw(1);
-  std::vector<CollisionShape> shapes;
-  for (const RobotBody& body : robot.bodies) shapes.emplace_back(body.shape);
+  const std::vector<CollisionShape> shapes = ShapesOf(robot);
   int free = 0, taken = 0;
   for (int room = 0; room < 2; ++room) {
     const Scene scene = Mixed(12, &draw);
@@ -100,8 +105,7 @@ TEST(SweptVolumeQueryTest, WhatIsFreeAmongObstaclesThatMoveIsFreeAtAnyTime) {
   const RobotModel& robot = SweptRobot();
   const SweptVolumes& volumes = CoarseVolumes();
   SweptDraw draw(20);
-  std::vector<CollisionShape> shapes;
-  for (const RobotBody& body : robot.bodies) shapes.emplace_back(body.shape);
+  const std::vector<CollisionShape> shapes = ShapesOf(robot);
   int free = 0, of_rest_only = 0, hit = 0;
   for (int room = 0; room < 6; ++room) {
     Scene scene = Mixed(5, &draw), resting = scene;

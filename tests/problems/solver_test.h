@@ -53,4 +53,19 @@ inline void ExpectTrue(const opt::Problem& problem, const opt::SolverOptions& op
   EXPECT_EQ(solution.requested_options, options.solver_options);
 }
 
+/// A solver that may evaluate 3000 times says of a problem that misses a row by `least` at least
+/// that it is not feasible.
+inline void ExpectInfeasible(const opt::Solver& solver, const opt::Problem& problem, double least) {
+  if (!solver.WhyUnsupported(problem).empty()) GTEST_SKIP();
+  opt::SolverOptions options;
+  options.max_evaluations = 3000;
+  const opt::Solution solution = solver.Solve(problem, problem.initial(), options);
+  SCOPED_TRACE(solution.BriefReport());
+  ExpectTrue(problem, options, solution);
+  EXPECT_TRUE(solution.ending == opt::Ending::kLimit || solution.ending == opt::Ending::kFailed);
+  EXPECT_FALSE(solution.feasible);
+  EXPECT_GE(solution.max_violation, least);
+  EXPECT_FALSE(solution.worst_row.empty());
+}
+
 }  // namespace halfstep::testing

@@ -12,7 +12,7 @@
 #include "tests/scenarios/load_experiment.h"
 #include "tests/smoothing/smoothed.h"
 #include "tests/smoothing/test_walks.h"
-#include "tests/wpg/acceleration_limits.h"
+#include "tests/wpg/joint_limits.h"
 #include "wpg/motion/posture.h"
 
 namespace halfstep {

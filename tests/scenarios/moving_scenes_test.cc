@@ -17,6 +17,7 @@
 #include "smoothing/program/watched_instants.h"
 #include "smoothing/proof/certified_feasibility.h"
 #include "tests/scenarios/load_experiment.h"
+#include "tests/scenarios/row_slopes.h"
 #include "tests/smoothing/smoothed.h"
 #include "tests/smoothing/test_walks.h"
 
@@ -115,19 +116,17 @@ TEST(MovingScenes, SlopesAlongEveryEarlierParameterAgreeWithDifferences) {
   WalkDraw draw(371);
   int compared = 0, timed = 0, kinks = 0, by_time_alone = 0, caught = 0;
   for (int i = 0; i < Draws(40); ++i) {
-    const HomotopyParameters parameters = draw.Parameters(e.sequence, 0.05, 0.85);
-    const SuperposedWalk walk(e.sequence, parameters);
-    const double t = draw.Uniform(0, walk.duration());
-    if (NearKnot(walk, t, 1e-3)) continue;
-    const LocalTime at = walk.Locate(t);
+    const DrawnInstant drawn(e.sequence, 0.05, 0.85, &draw);
+    if (NearKnot(drawn.walk, drawn.t, 1e-3)) continue;
+    const LocalTime& at = drawn.at;
     InstantSlacks here;
-    slacks.At(walk, at, {}, true, &here);
+    slacks.At(drawn.walk, at, {}, true, &here);
     ASSERT_EQ(here.times.size(), 2 * static_cast<size_t>(at.half_step));
     for (const HomotopyParameter& parameter : AllParameters(e.sequence)) {
       const auto slope = [&](double h, size_t row) {
         double sides[2] = {0, 0};
         for (const int s : {0, 1}) {
-          HomotopyParameters moved = parameters;
+          HomotopyParameters moved = drawn.parameters;
           parameter.in(moved) += s == 0 ? -h : h;
           InstantSlacks there;
           slacks.At(SuperposedWalk(e.sequence, moved), at, {}, false, &there);
@@ -177,25 +176,15 @@ TEST(MovingScenes, RowsOfTheProgramAgreeWithDifferences) {
   for (int i = 0; i < Draws(6); ++i) {
     const Eigen::VectorXd x = variables.ToVariables(draw.Parameters(e.sequence, 0.1, 0.9)),
                           lower = variables.lower();
-    Eigen::VectorXd direction(x.size());
-    for (Eigen::Index v = 0; v < x.size(); ++v) direction[v] = draw.Uniform(-1, 1);
-    Eigen::VectorXd values;
-    std::vector<double> nonzeros;
-    table.Evaluate(x, &values, &nonzeros);
-    const auto slope = [&](double h) {
-      Eigen::VectorXd more, less;
-      table.Evaluate(x + h * direction, &more, nullptr);
-      table.Evaluate(x - h * direction, &less, nullptr);
-      return Eigen::VectorXd((more - less) / (2 * h));
-    };
-    const Eigen::VectorXd coarse = slope(1e-5), fine = slope(2e-6);
+    const RowSlopes slopes(table, x, &draw);
+    const Eigen::VectorXd &coarse = slopes.coarse, &fine = slopes.fine;
     size_t entry = 0;
     for (int row = 0; row < table.rows(); ++row) {
       const int half_step = table.half_step_of(row);
       const std::vector<int> near = OverlapVariables(e.sequence, variables.table()).Band(half_step);
       double analytic = 0.0, near_only = 0.0;
       for (const int v : table.band(half_step)) {
-        const double part = nonzeros[entry++] * direction[v];
+        const double part = slopes.nonzeros[entry++] * slopes.direction[v];
         analytic += part;
         if (std::find(near.begin(), near.end(), v) != near.end()) near_only += part;
       }

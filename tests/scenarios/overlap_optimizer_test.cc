@@ -119,16 +119,26 @@ TEST_F(OptimizerTest, ASolverThatRefusesTheProgramIsNotCreditedWithTheDichotomys
       opt::Ending::kInvalidInput);
 }
 
+// A walk of tests/fixtures/walk, smoothed without a deadline that matters.
+struct SmoothedFixture {
+  Experiment e;
+  CertifiedFeasibility test{{e.robot, e.scene, e.config.smoothing.limits}, {}};
+  SmoothingResult result;
+
+  explicit SmoothedFixture(const std::string& name)
+      : e(Prepare(LoadConfig(HALFSTEP_SOURCE_DIR "/tests/fixtures/walk/" + name + ".yaml", {}))) {
+    OptimizerOptions options = e.config.smoothing.options.Get(OptimizerGroup()).options;
+    options.solver = "halfstep/sqp";
+    options.deadline = 100.0;
+    result = Smoothed(OptimizeOverlaps, ProblemOf(e.sequence, test), options);
+  }
+};
+
 // With a penalty of 2 throughout, points of every round stayed violated, and the walk was the
 // dichotomy's of 13.48 s.
 TEST(SlowArc, RowsWhoseMultipliersAreLargeAreKeptAllTheSame) {
-  const Experiment e =
-      Prepare(LoadConfig(HALFSTEP_SOURCE_DIR "/tests/fixtures/walk/slow_arc.yaml", {}));
-  const CertifiedFeasibility test({e.robot, e.scene, e.config.smoothing.limits}, {});
-  OptimizerOptions options = e.config.smoothing.options.Get(OptimizerGroup()).options;
-  options.solver = "halfstep/sqp";
-  options.deadline = 100.0;
-  const SmoothingResult result = Smoothed(OptimizeOverlaps, ProblemOf(e.sequence, test), options);
+  const SmoothedFixture fixture("slow_arc");
+  const SmoothingResult& result = fixture.result;
   EXPECT_EQ(result.ending, opt::Ending::kLimit) << result.message;  // of rounds
   EXPECT_LT(DurationOf(result.parameters), 8.5) << result.message;
 }
@@ -136,18 +146,13 @@ TEST(SlowArc, RowsWhoseMultipliersAreLargeAreKeptAllTheSame) {
 // Searches from the dichotomy's walk and from the planned motion as it is end at 9.16 s, the best
 // uniform choice of durations and heights at 8.96 s.
 TEST(Turn, ShortHalfStepsAreFoundWhereLongOnesAreALocalOptimum) {
-  const Experiment e =
-      Prepare(LoadConfig(HALFSTEP_SOURCE_DIR "/tests/fixtures/walk/turn.yaml", {}));
-  const CertifiedFeasibility test({e.robot, e.scene, e.config.smoothing.limits}, {});
-  OptimizerOptions options = e.config.smoothing.options.Get(OptimizerGroup()).options;
-  options.solver = "halfstep/sqp";
-  options.deadline = 100.0;
-  const SmoothingResult result = Smoothed(OptimizeOverlaps, ProblemOf(e.sequence, test), options);
+  const SmoothedFixture fixture("turn");
+  const SmoothingResult& result = fixture.result;
   EXPECT_TRUE(HasOwnResult(result.ending)) << result.message;
   EXPECT_LT(DurationOf(result.parameters), 8.96) << result.message;
-  MarginEvaluator::Scratch scratch = test.evaluator().MakeScratch();
-  const SuperposedWalk walk(e.sequence, result.parameters);
-  EXPECT_EQ(test.Check(walk, {0.0, walk.duration()}, &scratch).verdict, Verdict::kFeasible);
+  MarginEvaluator::Scratch scratch = fixture.test.evaluator().MakeScratch();
+  const SuperposedWalk walk(fixture.e.sequence, result.parameters);
+  EXPECT_EQ(fixture.test.Check(walk, {0.0, walk.duration()}, &scratch).verdict, Verdict::kFeasible);
 }
 
 // Whatever a solver proposes is refused but the planned motion.

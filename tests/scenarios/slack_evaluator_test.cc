@@ -7,7 +7,7 @@
 
 #include "tests/scenarios/load_experiment.h"
 #include "tests/smoothing/test_walks.h"
-#include "tests/wpg/acceleration_limits.h"
+#include "tests/wpg/joint_limits.h"
 #include "wpg/motion/lipm.h"
 
 namespace halfstep {
@@ -53,20 +53,18 @@ TEST_F(SlackRows, GradientsAgreeWithDifferences) {
   WalkDraw draw(351);
   int compared = 0, kinks = 0, caught = 0;
   for (int i = 0; i < Draws(60); ++i) {
-    const HomotopyParameters parameters = draw.Parameters(e_.sequence, 0.05, 0.85);
-    const SuperposedWalk walk(e_.sequence, parameters);
-    const double t = draw.Uniform(0, walk.duration());
-    if (NearKnot(walk, t, 1e-3)) continue;
-    const LocalTime at = walk.Locate(t);
+    const DrawnInstant drawn(e_.sequence, 0.05, 0.85, &draw);
+    if (NearKnot(drawn.walk, drawn.t, 1e-3)) continue;
+    const LocalTime& at = drawn.at;
     InstantSlacks here;
-    slacks.At(walk, at, {}, true, &here);
+    slacks.At(drawn.walk, at, {}, true, &here);
     ASSERT_EQ(here.gradient.rows(), static_cast<Eigen::Index>(here.rows.size()));
     ASSERT_EQ(here.gradient.cols(), static_cast<Eigen::Index>(here.parameters.size()));
     for (size_t p = 0; p < here.parameters.size(); ++p) {
       const auto slopes = [&](double h, std::vector<double>* out, std::vector<double>* sided) {
         InstantSlacks sides[2];
         for (int s : {0, 1}) {
-          HomotopyParameters moved = parameters;
+          HomotopyParameters moved = drawn.parameters;
           here.parameters[p].in(moved) += s == 0 ? -h : h;
           slacks.At(SuperposedWalk(e_.sequence, moved), at, {}, false, &sides[s]);
           if (sides[s].rows.size() != here.rows.size()) return false;

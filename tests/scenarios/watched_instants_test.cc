@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tests/scenarios/load_experiment.h"
+#include "tests/scenarios/row_slopes.h"
 #include "tests/smoothing/test_walks.h"
 
 namespace halfstep {
@@ -68,24 +69,14 @@ class WatchedInstantsTest : public testing::Test {
     int compared = 0, kinks = 0, caught = 0, off = 0;
     for (int i = 0; i < Draws(10); ++i) {
       const Eigen::VectorXd x = Draw(variables, &draw);
-      Eigen::VectorXd direction(x.size());
-      for (Eigen::Index v = 0; v < x.size(); ++v) direction[v] = draw.Uniform(-1, 1);
-      Eigen::VectorXd values;
-      std::vector<double> nonzeros;
-      table.Evaluate(x, &values, &nonzeros);
-      ASSERT_EQ(nonzeros.size(), table.num_nonzeros());
-      const auto slope = [&](double h) {
-        Eigen::VectorXd more, less;
-        table.Evaluate(x + h * direction, &more, nullptr);
-        table.Evaluate(x - h * direction, &less, nullptr);
-        return Eigen::VectorXd((more - less) / (2 * h));
-      };
-      const Eigen::VectorXd coarse = slope(1e-5), fine = slope(2e-6);
+      const RowSlopes slopes(table, x, &draw);
+      ASSERT_EQ(slopes.nonzeros.size(), table.num_nonzeros());
+      const Eigen::VectorXd &coarse = slopes.coarse, &fine = slopes.fine;
       size_t entry = 0;
       for (int row = 0; row < table.rows(); ++row) {
         double analytic = 0.0;
         for (int v : table.band(table.half_step_of(row))) {
-          analytic += nonzeros[entry++] * direction[v];
+          analytic += slopes.nonzeros[entry++] * slopes.direction[v];
         }
         const double size = 1 + std::abs(fine[row]);
         if (std::abs(coarse[row] - fine[row]) > 1e-3 * size) {

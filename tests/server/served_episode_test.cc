@@ -15,7 +15,7 @@
 #include "experiments/run/exit_status.h"
 #include "experiments/server/server.h"
 #include "tests/experiments/child_process.h"
-#include "tests/live/small_episode.h"
+#include "tests/live/small_files.h"
 #include "tests/server/test_client.h"
 #include "tests/temporary_folder.h"
 
@@ -36,14 +36,9 @@ std::string TextOf(const fs::path& path) {
 class Served {
  public:
   explicit Served(double goal_x = 1.2, const std::vector<std::string>& more = {}) {
-    SmallWorld::Get();  // bakes what the command reads from the cache
-    std::string text = kSmallConfig;
-    text.replace(text.find("scene: none"), 11, "scene: bar.yaml");
-    text.replace(text.find("x_m: 1.2"), 8, "x_m: " + std::to_string(goal_x));
-    std::ofstream(place_ / "small.yaml") << text;
-    std::ofstream(place_ / "bar.yaml")
-        << "name: bar\nobstacles:\n  - {name: bar, box: {size_m: [0.03, 0.3, 0.04]}, "
-           "pose: {xyz: [0.75, 2.0, 0.02]}}\n";
+    WriteSmallWorld(place_.path(), "");
+    const fs::path config = place_ / "small.yaml";
+    WriteText(config, Replaced(ReadText(config), "x_m: 1.2", "x_m: " + std::to_string(goal_x)));
     const fs::path screen = place_ / "screen.txt";
     const int out = open(screen.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
     std::vector<std::string> arguments = {"live",   "small.yaml", "--out",    "one",

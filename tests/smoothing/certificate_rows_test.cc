@@ -10,8 +10,7 @@
 #include "smoothing/proof/interval_statements.h"
 #include "tests/smoothing/certificate_draws.h"
 #include "tests/smoothing/motion_truth.h"
-#include "tests/wpg/acceleration_limits.h"
-#include "tests/wpg/torque_limits.h"
+#include "tests/wpg/joint_limits.h"
 
 namespace halfstep {
 namespace {

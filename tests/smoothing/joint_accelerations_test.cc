@@ -11,8 +11,8 @@
 #include "smoothing/proof/certified_feasibility.h"
 #include "smoothing/proof/interval_statements.h"
 #include "smoothing/walk/posture_tangent.h"
-#include "tests/smoothing/certificate_draws.h"
-#include "tests/wpg/acceleration_limits.h"
+#include "tests/smoothing/drawn_motion.h"
+#include "tests/wpg/joint_limits.h"
 #include "wpg/motion/dynamics_slope.h"
 
 namespace halfstep {
@@ -27,26 +27,11 @@ std::vector<RobotModel> AllLegs() {
   return robots;
 }
 
-// A posture with its joint speeds; none where a leg does not reach, or comes near to stretched.
-std::optional<Posture> MovingPosture(const RobotModel& robot, const WalkJet& jet) {
-  Posture posture = SolvePosture(robot, jet.value);
-  if (!posture.reachable || posture.ik[0].reach_margin < 0.01 ||
-      posture.ik[1].reach_margin < 0.01 || !SolveJointSpeeds(robot, jet, &posture)) {
-    return std::nullopt;
-  }
-  return posture;
-}
-
 Eigen::VectorXd Accelerations(const RobotModel& robot, const WalkJet& jet, const Posture& posture) {
   const RobotDynamics motion(robot, jet, posture, kG);
   Eigen::VectorXd all(12);
   all << motion.accelerations(Side::kLeft), motion.accelerations(Side::kRight);
   return all;
-}
-
-SuperposedWalk DrawnAccelerationWalk(const RobotModel& robot, WalkDraw* draw) {
-  const HalfStepSequence sequence = DrawSequence(robot, 2, {.stride = 0.7}, draw);
-  return {sequence, draw->Parameters(sequence, 0.0, 0.8)};
 }
 
 TEST(JointAccelerations, AreTheRatesOfJointSpeeds) {
@@ -57,7 +42,7 @@ TEST(JointAccelerations, AreTheRatesOfJointSpeeds) {
     int compared = 0;
     double worst = 0, largest = 0;
     for (int i = 0; i < Draws(60); ++i) {
-      const SuperposedWalk walk = DrawnAccelerationWalk(robot, &draw);
+      const SuperposedWalk walk = DrawnWalkOf(robot, &draw);
       const double t = draw.Uniform(0.05, walk.duration() - 0.05);
       if (NearKnot(walk, t, 4 * kStep)) continue;
       const auto speeds = [&](double s) -> std::optional<Eigen::VectorXd> {
@@ -95,16 +80,11 @@ TEST(JointAccelerations, HaveTheSlopesOfDifferences) {
     WalkDraw draw(seed++);
     int compared = 0;
     for (int i = 0; i < Draws(60); ++i) {
-      const SuperposedWalk walk = DrawnAccelerationWalk(robot, &draw);
+      const SuperposedWalk walk = DrawnWalkOf(robot, &draw);
       const WalkJet jet = walk.At(draw.Uniform(0, walk.duration()));
       const auto posture = MovingPosture(robot, jet);
       if (!posture) continue;
-      WalkJet along;
-      for (int q = 0; q < kNumQuantities; ++q) {
-        along.value[q] = draw.Uniform(-0.1, 0.1);
-        along.first[q] = draw.Uniform(-1, 1);
-        along.second[q] = draw.Uniform(-10, 10);
-      }
+      const WalkJet along = DrawnRates(&draw);
       const RobotDynamics motion(robot, jet, *posture, kG);
       const PostureTangent tangent = Differentiate(robot, jet, *posture, along);
       const DynamicsSlope slope(robot, jet, *posture, motion, {along, tangent.q, tangent.speeds});
@@ -112,10 +92,7 @@ TEST(JointAccelerations, HaveTheSlopesOfDifferences) {
       slopes << slope.accelerations(Side::kLeft), slope.accelerations(Side::kRight);
       slopes *= 0.01;  // in units of 100 rad/s²
       const auto function = [&](const Eigen::VectorXd& h) -> Eigen::VectorXd {
-        WalkJet moved = jet;
-        moved.value += h[0] * along.value;
-        moved.first += h[0] * along.first;
-        moved.second += h[0] * along.second;
+        const WalkJet moved = Along(jet, h[0], along);
         const auto there = MovingPosture(robot, moved);
         if (!there) return Eigen::VectorXd::Constant(12, std::nan(""));
         return 0.01 * Accelerations(robot, moved, *there);

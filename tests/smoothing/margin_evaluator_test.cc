@@ -12,9 +12,8 @@
 #include "smoothing/proof/certified_feasibility.h"
 #include "tests/smoothing/test_scenes.h"
 #include "tests/smoothing/test_walks.h"
-#include "tests/wpg/acceleration_limits.h"
+#include "tests/wpg/joint_limits.h"
 #include "tests/wpg/symmetric_masses.h"
-#include "tests/wpg/torque_limits.h"
 #include "wpg/motion/lipm.h"
 #include "wpg/robot/torque_limits.h"
 

@@ -10,6 +10,7 @@
 
 #include "smoothing/proof/certified_feasibility.h"
 #include "tests/wpg/hrp2.h"
+#include "tests/wpg/one_step.h"
 #include "wpg/motion/lipm.h"
 
 namespace halfstep {
@@ -28,14 +29,7 @@ class MissedDemandsTest : public testing::Test {
   }
   MarginEvaluator Evaluator() const { return {robot_, {}, limits_}; }
   SuperposedWalk Walk() const {
-    const double y = 0.5 * robot_.standing_width;
-    const HalfStepSequence sequence =
-        MakeSequence({Foothold::Level({0, y, 0}), Foothold::Level({0, -y, 0})},
-                     {{.side = Side::kLeft,
-                       .X_WF = Foothold::Level({0.2, y, 0}),
-                       .via_height = 0.25,
-                       .duration = 2.0}},
-                     0.24, {}, std::make_shared<Lipm>(robot_.com_height));
+    const HalfStepSequence sequence = OneStep(robot_);
     return {sequence, PlannedMotion(sequence)};
   }
   // Footsteps of both feet in turn, the right one first, `apart` [m] ahead of each other, but for

@@ -8,7 +8,7 @@
 #include "smoothing/margins/family_traits.h"
 #include "smoothing/margins/margin_evaluator.h"
 #include "tests/wpg/hrp2.h"
-#include "tests/wpg/torque_limits.h"
+#include "tests/wpg/joint_limits.h"
 
 namespace halfstep {
 namespace {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "opt/problem/derivative_check.h"
-#include "tests/smoothing/test_walks.h"
+#include "tests/smoothing/drawn_motion.h"
 
 namespace halfstep {
 namespace {
@@ -23,20 +23,21 @@ Eigen::VectorXd Everything(const RobotModel& robot, const WalkJet& jet) {
   return all;
 }
 
+WalkJet DrawnJet(WalkDraw* draw) {
+  const HalfStepSequence sequence = draw->Sequence(2);
+  const SuperposedWalk walk(sequence, draw->Parameters(sequence, 0.0, 0.9));
+  return walk.At(draw->Uniform(0, walk.duration()));
+}
+
 TEST(PostureTangent, AgreesWithDifferencesOfTheInverseKinematics) {
   const RobotModel robot = Hrp2();
   WalkDraw draw(340);
   int checked = 0;
   for (int i = 0; i < Draws(200); ++i) {
-    const HalfStepSequence sequence = draw.Sequence(2);
-    const SuperposedWalk walk(sequence, draw.Parameters(sequence, 0.0, 0.9));
-    const WalkJet jet = walk.At(draw.Uniform(0, walk.duration()));
-    Posture posture = SolvePosture(robot, jet.value);
-    // Differences need room up to the stretched knee.
-    if (!posture.reachable || posture.ik[0].reach_margin < 0.01 ||
-        posture.ik[1].reach_margin < 0.01 || !SolveJointSpeeds(robot, jet, &posture)) {
-      continue;
-    }
+    const WalkJet jet = DrawnJet(&draw);
+    const auto moving = MovingPosture(robot, jet);
+    if (!moving) continue;
+    const Posture& posture = *moving;
     ++checked;
     WalkJet along;
     for (int q = 0; q < kNumQuantities; ++q) {
@@ -45,10 +46,7 @@ TEST(PostureTangent, AgreesWithDifferencesOfTheInverseKinematics) {
     }
     const PostureTangent tangent = Differentiate(robot, jet, posture, along);
     const auto function = [&](const Eigen::VectorXd& h) {
-      WalkJet moved = jet;
-      moved.value += h[0] * along.value;
-      moved.first += h[0] * along.first;
-      return Everything(robot, moved);
+      return Everything(robot, Along(jet, h[0], along));
     };
     Eigen::MatrixXd column(24 + 3 * static_cast<Eigen::Index>(robot.bodies.size()), 1);
     column.topRows<24>() << tangent.q[0], tangent.q[1], tangent.speeds[0], tangent.speeds[1];
@@ -74,9 +72,7 @@ TEST(PostureTangent, AlongTimeItIsTheVelocity) {
   WalkDraw draw(341);
   int checked = 0;
   for (int i = 0; i < Draws(100); ++i) {
-    const HalfStepSequence sequence = draw.Sequence(2);
-    const SuperposedWalk walk(sequence, draw.Parameters(sequence, 0.0, 0.9));
-    const WalkJet jet = walk.At(draw.Uniform(0, walk.duration()));
+    const WalkJet jet = DrawnJet(&draw);
     Posture posture = SolvePosture(robot, jet.value);
     if (!posture.reachable || !SolveJointSpeeds(robot, jet, &posture)) continue;
     ++checked;

@@ -8,9 +8,8 @@
 #include <optional>
 
 #include "opt/problem/derivative_check.h"
-#include "smoothing/proof/interval_statements.h"
 #include "smoothing/walk/posture_tangent.h"
-#include "tests/smoothing/certificate_draws.h"
+#include "tests/smoothing/drawn_motion.h"
 #include "tests/smoothing/robot_truth.h"
 #include "tests/wpg/symmetric_masses.h"
 #include "wpg/motion/leg_drift.h"
@@ -22,26 +21,10 @@ namespace {
 
 constexpr double kGravity = 9.81;
 
-std::optional<Posture> Solved(const RobotModel& robot, const WalkJet& jet) {
-  Posture posture = SolvePosture(robot, jet.value);
-  // Differences need room up to the stretched knee.
-  if (!posture.reachable || posture.ik[0].reach_margin < 0.01 ||
-      posture.ik[1].reach_margin < 0.01 || !SolveJointSpeeds(robot, jet, &posture)) {
-    return std::nullopt;
-  }
-  return posture;
-}
-
 std::optional<Eigen::Vector2d> ZmpOf(const RobotModel& robot, const WalkJet& jet) {
-  const auto posture = Solved(robot, jet);
+  const auto posture = MovingPosture(robot, jet);
   if (!posture) return std::nullopt;
   return RobotDynamics(robot, jet, *posture, kGravity).Zmp();
-}
-
-// A random walk of a robot, not at the ends of its reach.
-SuperposedWalk DrawnWalkOf(const RobotModel& robot, WalkDraw* draw) {
-  const HalfStepSequence sequence = DrawSequence(robot, 2, {.stride = 0.7}, draw);
-  return {sequence, draw->Parameters(sequence, 0.0, 0.8)};
 }
 
 TEST(RobotDynamics, ZmpIsThatOfTheMomentumOfAllLinks) {
@@ -123,26 +106,17 @@ TEST(ZmpSlopes, AgreeWithDifferences) {
         const SuperposedWalk walk = DrawnWalkOf(robot, &draw);
         return walk.At(draw.Uniform(0, walk.duration()));
       }();
-      const auto posture = Solved(robot, jet);
+      const auto posture = MovingPosture(robot, jet);
       if (!posture) continue;
       const RobotDynamics dynamics(robot, jet, *posture, kGravity);
       if (!dynamics.Zmp()) continue;
       const ZmpSlopes slopes(robot, jet, *posture, dynamics);
       ++checked;
-      WalkJet along;
-      for (int q = 0; q < kNumQuantities; ++q) {
-        along.value[q] = draw.Uniform(-0.1, 0.1);
-        along.first[q] = draw.Uniform(-1, 1);
-        along.second[q] = draw.Uniform(-10, 10);
-      }
+      const WalkJet along = DrawnRates(&draw);
       const PostureTangent tangent = Differentiate(robot, jet, *posture, along);
       const Eigen::Vector2d slope = slopes.Along({along, tangent.q, tangent.speeds});
       const auto function = [&](const Eigen::VectorXd& h) -> Eigen::VectorXd {
-        WalkJet at = jet;
-        at.value += h[0] * along.value;
-        at.first += h[0] * along.first;
-        at.second += h[0] * along.second;
-        const auto zmp = ZmpOf(robot, at);
+        const auto zmp = ZmpOf(robot, Along(jet, h[0], along));
         return zmp ? *zmp : Eigen::Vector2d::Constant(std::nan(""));
       };
       const Eigen::VectorXd here = Eigen::VectorXd::Zero(1);
@@ -198,61 +172,54 @@ TEST(LegDrift, IsNeverExceededInAnyOfItsParts) {
   unsigned seed = 760;
   for (const WholeRobot& whole : WholeRobots()) {
     const RobotModel& robot = whole.model;
-    const MotionBounds bounds(robot);
     WalkDraw draw(seed++);
     std::array<double, kParts> excess, nearest;
     excess.fill(-1);
     nearest.fill(0);
-    for (int i = 0; i < Draws(150); ++i) {
-      const HalfStepSequence sequence = DrawSequence(robot, 2, {}, &draw);
-      const SuperposedWalk walk(sequence, draw.ExtremeParameters(sequence));
-      for (int k = 0; k < 4; ++k) {
-        const double length = 1e-4 * std::pow(300.0, draw.Uniform(0, 1));
-        const double begin = draw.Uniform(0.0, walk.duration() - length);
-        IntervalMotion motion;
-        BoundMotion(bounds, walk, begin, begin + length, &motion);
-        if (!motion.bounded) continue;
-        const RobotDynamics at_m(robot, motion.jet, motion.posture, kGravity);
-        const WalkThirds thirds = walk.ThirdRanges(begin, begin + length);
-        const WalkJet jet = walk.At(begin + (draw.Uniform(0, 1) < 0.5 ? 0.0 : length));
-        Posture posture = SolvePosture(robot, jet.value);
-        ASSERT_TRUE(posture.reachable && SolveJointSpeeds(robot, jet, &posture));
-        const RobotDynamics there(robot, jet, posture, kGravity);
-        for (const Side side : {Side::kLeft, Side::kRight}) {
-          const size_t s = static_cast<size_t>(Index(side));
-          const LegDrift drift = LegDrift::Over(side, motion, DriftOfWaist(robot, motion, thirds),
-                                                DriftOfSole(motion, thirds, side), at_m);
-          const auto compare = [&](int part, double truth, double bound) {
-            const size_t of = static_cast<size_t>(part);
-            excess[of] = std::max(excess[of], truth - bound);
-            if (truth > 1e-5) nearest[of] = std::max(nearest[of], truth / bound);
-          };
-          for (size_t j = 0; j < 6; ++j) {
-            const Eigen::Index at = static_cast<Eigen::Index>(j);
-            const RobotDynamics::Body &now = at_m.leg(side)[j], &then = there.leg(side)[j];
-            const RigidDrift& link = drift.links[j];
-            const Eigen::Vector3d point = drift.points[j];
-            const Eigen::Isometry3d X =
-                posture.X_WLink[s][j] * motion.posture.X_WLink[s][j].inverse();
-            const Eigen::Vector3d moved = X * point;
-            compare(kPlace, (moved - point).norm(), link.p);
-            compare(
-                kAcceleration,
-                (AccelerationOf(then, moved - there.O()) - AccelerationOf(now, point - at_m.O()))
-                    .norm(),
-                link.p2);
-            compare(kTurn, (then.velocity - now.velocity).head<3>().norm(), link.turn);
-            compare(kTurn1, (then.acceleration - now.acceleration).head<3>().norm(), link.turn1);
-            compare(kTurned, Eigen::AngleAxisd(X.linear()).angle(), link.turned);
-            compare(kJointSpeed, std::abs(posture.speeds[s][at] - motion.posture.speeds[s][at]),
-                    drift.joints[j].speed_drift);
-            compare(kJointAcceleration,
-                    std::abs(there.accelerations(side)[at] - at_m.accelerations(side)[at]),
-                    drift.joints[j].acceleration_drift);
+    VisitIntervals(
+        robot, Draws(150), 4, &draw,
+        [&](const SuperposedWalk& walk, double begin, double length, const IntervalMotion& motion) {
+          if (!motion.bounded) return;
+          const RobotDynamics at_m(robot, motion.jet, motion.posture, kGravity);
+          const WalkThirds thirds = walk.ThirdRanges(begin, begin + length);
+          const WalkJet jet = walk.At(begin + (draw.Uniform(0, 1) < 0.5 ? 0.0 : length));
+          Posture posture = SolvePosture(robot, jet.value);
+          ASSERT_TRUE(posture.reachable && SolveJointSpeeds(robot, jet, &posture));
+          const RobotDynamics there(robot, jet, posture, kGravity);
+          for (const Side side : {Side::kLeft, Side::kRight}) {
+            const size_t s = static_cast<size_t>(Index(side));
+            const LegDrift drift = LegDrift::Over(side, motion, DriftOfWaist(robot, motion, thirds),
+                                                  DriftOfSole(motion, thirds, side), at_m);
+            const auto compare = [&](int part, double truth, double bound) {
+              const size_t of = static_cast<size_t>(part);
+              excess[of] = std::max(excess[of], truth - bound);
+              if (truth > 1e-5) nearest[of] = std::max(nearest[of], truth / bound);
+            };
+            for (size_t j = 0; j < 6; ++j) {
+              const Eigen::Index at = static_cast<Eigen::Index>(j);
+              const RobotDynamics::Body &now = at_m.leg(side)[j], &then = there.leg(side)[j];
+              const RigidDrift& link = drift.links[j];
+              const Eigen::Vector3d point = drift.points[j];
+              const Eigen::Isometry3d X =
+                  posture.X_WLink[s][j] * motion.posture.X_WLink[s][j].inverse();
+              const Eigen::Vector3d moved = X * point;
+              compare(kPlace, (moved - point).norm(), link.p);
+              compare(
+                  kAcceleration,
+                  (AccelerationOf(then, moved - there.O()) - AccelerationOf(now, point - at_m.O()))
+                      .norm(),
+                  link.p2);
+              compare(kTurn, (then.velocity - now.velocity).head<3>().norm(), link.turn);
+              compare(kTurn1, (then.acceleration - now.acceleration).head<3>().norm(), link.turn1);
+              compare(kTurned, Eigen::AngleAxisd(X.linear()).angle(), link.turned);
+              compare(kJointSpeed, std::abs(posture.speeds[s][at] - motion.posture.speeds[s][at]),
+                      drift.joints[j].speed_drift);
+              compare(kJointAcceleration,
+                      std::abs(there.accelerations(side)[at] - at_m.accelerations(side)[at]),
+                      drift.joints[j].acceleration_drift);
+            }
           }
-        }
-      }
-    }
+        });
     for (size_t part = 0; part < kParts; ++part) {
       // Accelerations are of the order of 10², known to 1e-12 of that, legs' without closed form
       // less.
@@ -266,42 +233,36 @@ TEST(ZmpDrift, IsNeverExceededOnRandomIntervals) {
   unsigned seed = 750;
   for (const WholeRobot& whole : WholeRobots()) {
     const RobotModel& robot = whole.model;
-    const MotionBounds bounds(robot);
     WalkDraw draw(seed++);
     int intervals = 0, bounded = 0;
     double excess = -1, nearest = 0;
-    for (int i = 0; i < Draws(100); ++i) {
-      const HalfStepSequence sequence = DrawSequence(robot, 2, {}, &draw);
-      const SuperposedWalk walk(sequence, draw.ExtremeParameters(sequence));
-      for (int k = 0; k < 10; ++k) {
-        const double length = 1e-4 * std::pow(300.0, draw.Uniform(0, 1));
-        const double begin = draw.Uniform(0.0, walk.duration() - length);
-        IntervalMotion motion;
-        BoundMotion(bounds, walk, begin, begin + length, &motion);
-        ++intervals;
-        if (!motion.bounded) continue;
-        const RobotDynamics dynamics(robot, motion.jet, motion.posture, kGravity);
-        const auto middle = dynamics.Zmp();
-        if (!middle) continue;
-        const WalkThirds thirds = walk.ThirdRanges(begin, begin + length);
-        const RobotDrift of_robot(robot, motion, thirds, dynamics, kGravity);
-        const ZmpDrift drift = ZmpDrift::Over(robot, motion, thirds, of_robot, dynamics, kGravity);
-        if (!(drift.least_push > 0)) continue;
-        ++bounded;
-        const double angle = draw.Uniform(0, 6.3);
-        const Eigen::Vector2d direction(std::cos(angle), std::sin(angle));
-        for (const double part : {0.0, draw.Uniform(0, 1), draw.Uniform(0, 1), 1.0}) {
-          const WalkJet jet = walk.At(begin + part * length);
-          Posture posture = SolvePosture(robot, jet.value);
-          ASSERT_TRUE(posture.reachable && SolveJointSpeeds(robot, jet, &posture));
-          const auto there = RobotDynamics(robot, jet, posture, kGravity).Zmp();
-          ASSERT_TRUE(there) << robot.name;
-          const double moved = std::abs(direction.dot(*there - *middle));
-          excess = std::max(excess, moved - drift.Along(direction));
-          if (moved > 1e-6) nearest = std::max(nearest, moved / drift.Along(direction));
-        }
-      }
-    }
+    VisitIntervals(
+        robot, Draws(100), 10, &draw,
+        [&](const SuperposedWalk& walk, double begin, double length, const IntervalMotion& motion) {
+          ++intervals;
+          if (!motion.bounded) return;
+          const RobotDynamics dynamics(robot, motion.jet, motion.posture, kGravity);
+          const auto middle = dynamics.Zmp();
+          if (!middle) return;
+          const WalkThirds thirds = walk.ThirdRanges(begin, begin + length);
+          const RobotDrift of_robot(robot, motion, thirds, dynamics, kGravity);
+          const ZmpDrift drift =
+              ZmpDrift::Over(robot, motion, thirds, of_robot, dynamics, kGravity);
+          if (!(drift.least_push > 0)) return;
+          ++bounded;
+          const double angle = draw.Uniform(0, 6.3);
+          const Eigen::Vector2d direction(std::cos(angle), std::sin(angle));
+          for (const double part : {0.0, draw.Uniform(0, 1), draw.Uniform(0, 1), 1.0}) {
+            const WalkJet jet = walk.At(begin + part * length);
+            Posture posture = SolvePosture(robot, jet.value);
+            ASSERT_TRUE(posture.reachable && SolveJointSpeeds(robot, jet, &posture));
+            const auto there = RobotDynamics(robot, jet, posture, kGravity).Zmp();
+            ASSERT_TRUE(there) << robot.name;
+            const double moved = std::abs(direction.dot(*there - *middle));
+            excess = std::max(excess, moved - drift.Along(direction));
+            if (moved > 1e-6) nearest = std::max(nearest, moved / drift.Along(direction));
+          }
+        });
     EXPECT_GT(bounded, intervals / 2) << robot.name;
     EXPECT_LT(excess, 1e-9) << robot.name;
     // By norms where the legs' inertia is concerned; a term forgotten shows in LegDrift's parts.

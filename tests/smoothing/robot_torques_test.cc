@@ -7,9 +7,8 @@
 
 #include "opt/problem/derivative_check.h"
 #include "smoothing/proof/certified_feasibility.h"
-#include "smoothing/proof/interval_statements.h"
 #include "smoothing/walk/posture_tangent.h"
-#include "tests/smoothing/certificate_draws.h"
+#include "tests/smoothing/drawn_motion.h"
 #include "tests/smoothing/robot_truth.h"
 #include "wpg/geometry/support_polygon.h"
 #include "wpg/motion/foot_friction.h"
@@ -31,12 +30,10 @@ struct Carried {
   std::optional<FootLoads> loads;
 
   // Unsolved where a leg does not reach, or comes near to stretched.
-  Carried(const RobotModel& robot, const WalkJet& jet, const std::optional<Side>& support)
-      : posture(SolvePosture(robot, jet.value)) {
-    if (!posture.reachable || posture.ik[0].reach_margin < 0.01 ||
-        posture.ik[1].reach_margin < 0.01 || !SolveJointSpeeds(robot, jet, &posture)) {
-      return;
-    }
+  Carried(const RobotModel& robot, const WalkJet& jet, const std::optional<Side>& support) {
+    const auto moving = MovingPosture(robot, jet);
+    if (!moving) return;
+    posture = *moving;
     dynamics.emplace(robot, jet, posture, kG);
     const auto zmp = dynamics->Zmp();
     if (!zmp) return;
@@ -59,11 +56,6 @@ std::optional<Side> SupportOf(const SuperposedWalk& walk, double t) {
   const int step = walk.StepInAir(walk.Locate(t));
   if (step < 0) return std::nullopt;
   return walk.half_step(2 * step).support;
-}
-
-SuperposedWalk DrawnTorqueWalk(const RobotModel& robot, WalkDraw* draw) {
-  const HalfStepSequence sequence = DrawSequence(robot, 2, {.stride = 0.7}, draw);
-  return {sequence, draw->Parameters(sequence, 0.0, 0.8)};
 }
 
 // Soles side by side, one of them turned.
@@ -138,7 +130,7 @@ TEST(LegTorques, AreThoseOfForcesOnPointMasses) {
     int compared = 0;
     double worst = 0, largest = 0;
     for (int i = 0; i < Draws(100); ++i) {
-      const SuperposedWalk walk = DrawnTorqueWalk(robot, &draw);
+      const SuperposedWalk walk = DrawnWalkOf(robot, &draw);
       const double t = draw.Uniform(0.05, walk.duration() - 0.05);
       if (NearKnot(walk, t, 5 * kStep)) continue;
       const Carried at(robot, walk.At(t), SupportOf(walk, t));
@@ -176,18 +168,13 @@ TEST(LegTorques, AndFrictionHaveTheSlopesOfDifferences) {
     WalkDraw draw(seed++);
     int single = 0, both = 0, kinks = 0;
     for (int i = 0; i < Draws(100); ++i) {
-      const SuperposedWalk walk = DrawnTorqueWalk(robot, &draw);
+      const SuperposedWalk walk = DrawnWalkOf(robot, &draw);
       const double t = draw.Uniform(0, walk.duration());
       const WalkJet jet = walk.At(t);
       const auto support = SupportOf(walk, t);
       const Carried at(robot, jet, support);
       if (!at.solved()) continue;
-      WalkJet along;
-      for (int q = 0; q < kNumQuantities; ++q) {
-        along.value[q] = draw.Uniform(-0.1, 0.1);
-        along.first[q] = draw.Uniform(-1, 1);
-        along.second[q] = draw.Uniform(-10, 10);
-      }
+      WalkJet along = DrawnRates(&draw);
       // Footsteps do not move.
       for (const Side side : kSides) {
         if (!support || *support == side) along.value.segment<4>(FootIndex(side)).setZero();
@@ -211,12 +198,8 @@ TEST(LegTorques, AndFrictionHaveTheSlopesOfDifferences) {
       slopes *= 0.01;
       slopes(12, 0) = friction ? friction->Slope(slope.contact()) : 0.0;
       const auto function = [&](const Eigen::VectorXd& h) -> Eigen::VectorXd {
-        WalkJet moved = jet;
-        moved.value += h[0] * along.value;
-        moved.first += h[0] * along.first;
-        moved.second += h[0] * along.second;
         Eigen::VectorXd values = Eigen::VectorXd::Constant(13, std::nan(""));
-        const Carried there(robot, moved, support);
+        const Carried there(robot, Along(jet, h[0], along), support);
         if (!there.solved()) return values;
         values.head<12>() = 0.01 * there.Torques();
         const auto needed = FootFriction::Of(*there.dynamics, polygon);
@@ -250,66 +233,58 @@ TEST(TorqueDrift, AndThatOfFrictionAreNeverExceededOnRandomIntervals) {
   unsigned seed = 800;
   for (const WholeRobot& whole : WholeRobots()) {
     const RobotModel& robot = whole.model;
-    const MotionBounds bounds(robot);
     WalkDraw draw(seed++);
     int intervals = 0;
     std::array<double, 2> excess = {-1, -1}, nearest = {0, 0}, friction_excess = {-1, -1},
                           friction_nearest = {0, 0};
-    for (int i = 0; i < Draws(100); ++i) {
-      const HalfStepSequence sequence = DrawSequence(robot, 2, {}, &draw);
-      const SuperposedWalk walk(sequence, draw.ExtremeParameters(sequence));
-      for (int k = 0; k < 10; ++k) {
-        const double length = 1e-4 * std::pow(300.0, draw.Uniform(0, 1));
-        const double begin = draw.Uniform(0.0, walk.duration() - length);
-        const auto support = SupportOf(walk, begin + 0.5 * length);
-        if (!KnotsInside(walk, {begin, begin + length}).empty()) continue;
-        IntervalMotion motion;
-        BoundMotion(bounds, walk, begin, begin + length, &motion);
-        if (!motion.bounded) continue;
-        const Carried at(robot, motion.jet, support);
-        if (!at.solved()) continue;
-        ++intervals;
-        const WalkThirds thirds = walk.ThirdRanges(begin, begin + length);
-        const RobotDrift drift(robot, motion, thirds, *at.dynamics, kG);
-        const ZmpDrift zmp = ZmpDrift::Over(robot, motion, thirds, drift, *at.dynamics, kG);
-        const TorqueDrift torque_drift(motion, drift, *at.dynamics, *at.loads, zmp.Most(), kG);
-        const Eigen::VectorXd middle = at.Torques();
-        Eigen::VectorXd drifts(12);
-        for (const Side side : kSides) drifts.segment<6>(6 * Index(side)) = torque_drift.Of(side);
-        const SupportPolygon polygon =
-            SupportAt(walk, walk.Locate(begin + 0.5 * length), motion.jet.value, robot.sole_size);
-        const auto friction = FootFriction::Of(*at.dynamics, polygon);
-        const double friction_drift = friction ? friction->Drift(drift, zmp) : 0.0;
-        // No bound where the ZMP may leave by an edge along the pressure's points.
-        const Eigen::Vector2d p = *at.dynamics->Zmp();
-        const double across = 0.5 * zmp.Along({0, 1}), ahead = 1.0 + 2.0 * zmp.Most();
-        if (across > 1e-9 && std::isfinite(ahead)) {
-          const SupportPolygon thin({p.x(), p.y(), 0.0}, {2.0 * ahead, 2.0 * across});
-          EXPECT_TRUE(std::isinf(FootFriction::Of(*at.dynamics, thin).value().Drift(drift, zmp)));
-        }
-        const size_t which = support ? 0 : 1;
-        for (const double part : {0.0, draw.Uniform(0, 1), draw.Uniform(0, 1), 1.0}) {
-          const WalkJet jet = walk.At(begin + part * length);
-          Posture posture = SolvePosture(robot, jet.value);
-          ASSERT_TRUE(posture.reachable && SolveJointSpeeds(robot, jet, &posture));
-          const Carried there(robot, jet, support);
-          if (!there.solved()) continue;
-          const Eigen::VectorXd moved = (there.Torques() - middle).cwiseAbs();
-          for (int j = 0; j < 12; ++j) {
-            excess[which] = std::max(excess[which], moved[j] - drifts[j]);
-            if (moved[j] > 1e-3) nearest[which] = std::max(nearest[which], moved[j] / drifts[j]);
+    VisitIntervals(
+        robot, Draws(100), 10, &draw,
+        [&](const SuperposedWalk& walk, double begin, double length, const IntervalMotion& motion) {
+          const auto support = SupportOf(walk, begin + 0.5 * length);
+          if (!motion.bounded || !KnotsInside(walk, {begin, begin + length}).empty()) return;
+          const Carried at(robot, motion.jet, support);
+          if (!at.solved()) return;
+          ++intervals;
+          const WalkThirds thirds = walk.ThirdRanges(begin, begin + length);
+          const RobotDrift drift(robot, motion, thirds, *at.dynamics, kG);
+          const ZmpDrift zmp = ZmpDrift::Over(robot, motion, thirds, drift, *at.dynamics, kG);
+          const TorqueDrift torque_drift(motion, drift, *at.dynamics, *at.loads, zmp.Most(), kG);
+          const Eigen::VectorXd middle = at.Torques();
+          Eigen::VectorXd drifts(12);
+          for (const Side side : kSides) drifts.segment<6>(6 * Index(side)) = torque_drift.Of(side);
+          const SupportPolygon polygon =
+              SupportAt(walk, walk.Locate(begin + 0.5 * length), motion.jet.value, robot.sole_size);
+          const auto friction = FootFriction::Of(*at.dynamics, polygon);
+          const double friction_drift = friction ? friction->Drift(drift, zmp) : 0.0;
+          // No bound where the ZMP may leave by an edge along the pressure's points.
+          const Eigen::Vector2d p = *at.dynamics->Zmp();
+          const double across = 0.5 * zmp.Along({0, 1}), ahead = 1.0 + 2.0 * zmp.Most();
+          if (across > 1e-9 && std::isfinite(ahead)) {
+            const SupportPolygon thin({p.x(), p.y(), 0.0}, {2.0 * ahead, 2.0 * across});
+            EXPECT_TRUE(std::isinf(FootFriction::Of(*at.dynamics, thin).value().Drift(drift, zmp)));
           }
-          const auto needed = FootFriction::Of(*there.dynamics, polygon);
-          if (!friction || !std::isfinite(friction_drift)) continue;
-          ASSERT_TRUE(needed) << robot.name;
-          const double grown = needed->needed() - friction->needed();
-          friction_excess[which] = std::max(friction_excess[which], grown - friction_drift);
-          if (grown > 1e-5) {
-            friction_nearest[which] = std::max(friction_nearest[which], grown / friction_drift);
+          const size_t which = support ? 0 : 1;
+          for (const double part : {0.0, draw.Uniform(0, 1), draw.Uniform(0, 1), 1.0}) {
+            const WalkJet jet = walk.At(begin + part * length);
+            Posture posture = SolvePosture(robot, jet.value);
+            ASSERT_TRUE(posture.reachable && SolveJointSpeeds(robot, jet, &posture));
+            const Carried there(robot, jet, support);
+            if (!there.solved()) continue;
+            const Eigen::VectorXd moved = (there.Torques() - middle).cwiseAbs();
+            for (int j = 0; j < 12; ++j) {
+              excess[which] = std::max(excess[which], moved[j] - drifts[j]);
+              if (moved[j] > 1e-3) nearest[which] = std::max(nearest[which], moved[j] / drifts[j]);
+            }
+            const auto needed = FootFriction::Of(*there.dynamics, polygon);
+            if (!friction || !std::isfinite(friction_drift)) continue;
+            ASSERT_TRUE(needed) << robot.name;
+            const double grown = needed->needed() - friction->needed();
+            friction_excess[which] = std::max(friction_excess[which], grown - friction_drift);
+            if (grown > 1e-5) {
+              friction_nearest[which] = std::max(friction_nearest[which], grown / friction_drift);
+            }
           }
-        }
-      }
-    }
+        });
     EXPECT_GT(intervals, Draws(100)) << robot.name;
     for (const size_t which : {0u, 1u}) {
       EXPECT_LT(excess[which], 1e-7) << robot.name;

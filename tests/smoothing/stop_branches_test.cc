@@ -32,11 +32,7 @@ TEST(StopBranch, IsTheWalkToTheBitUntilTheNextHalfStepWouldBegin) {
       EXPECT_EQ(jet.second, expected.second);
       EXPECT_EQ(branch.StepInAir(branch.Locate(t)), walk.StepInAir(walk.Locate(t)));
       // C² where the two part.
-      const double parting = walk.start_of(k + 1);
-      const WalkJet before = branch.At(parting - 1e-9), after = branch.At(parting + 1e-9);
-      EXPECT_LT(Largest(after.value - before.value), 1e-7);
-      EXPECT_LT(Largest(after.first - before.first), 1e-6);
-      EXPECT_LT(Largest(after.second - before.second), 1e-3);
+      EXPECT_TRUE(IsC2At(branch, walk.start_of(k + 1), 1e-9));
     }
   }
 }

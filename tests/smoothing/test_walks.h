@@ -116,6 +116,29 @@ inline bool NearKnot(const SuperposedWalk& walk, double t, double distance) {
                      [&](double knot) { return std::abs(knot - t) < distance; });
 }
 
+/// Whether a walk is C² at an instant: from h before it to h after it the second time derivatives,
+/// which are continuous, differ by no more than they may change in that time.
+inline bool IsC2At(const SuperposedWalk& walk, double t, double h) {
+  const WalkJet before = walk.At(t - h), after = walk.At(t + h);
+  return Largest(after.value - before.value) < 1e-7 && Largest(after.first - before.first) < 1e-6 &&
+         Largest(after.second - before.second) < 1e-3;
+}
+
+/// A random instant of a random walk.
+struct DrawnInstant {
+  HomotopyParameters parameters;
+  SuperposedWalk walk;
+  double t;
+  LocalTime at;
+
+  /// Overlaps are between `low` and `high` of their natural bounds.
+  DrawnInstant(const HalfStepSequence& sequence, double low, double high, WalkDraw* draw)
+      : parameters(draw->Parameters(sequence, low, high)),
+        walk(sequence, parameters),
+        t(draw->Uniform(0, walk.duration())),
+        at(walk.Locate(t)) {}
+};
+
 /// Value, first and second derivative one below the other (39×1).
 inline Eigen::VectorXd Stacked(const WalkJet& jet) {
   Eigen::VectorXd all(3 * kNumQuantities);

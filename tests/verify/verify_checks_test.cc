@@ -18,25 +18,13 @@
 #include "experiments/verify/check_walk.h"
 #include "tests/verify/plan_of.h"
 #include "tests/verify/verify_mutation.h"
+#include "tests/verify/wrong_material.h"
 
 namespace halfstep::verify {
 namespace {
 
 using testing::HasSubstr;
 using testing::IsEmpty;
-
-// Everything that verify knows of the dichotomy's walk of Fig. 5, as values to be changed.
-struct Material {
-  RobotModel robot;
-  Scene scene;
-  WalkPlan planned;
-  CertificateText certificate;
-  std::vector<ClaimRow> claims;
-  std::vector<PlayedRow> rows;
-  std::vector<HalfStepRow> half_steps;
-  std::optional<std::vector<OverlapRow>> overlaps;  ///< none: the raw walk
-  std::vector<FootstepRow> footsteps;
-};
 
 const Material& Original() {
   static const Material material = [] {
@@ -57,19 +45,6 @@ const Material& Original() {
   }();
   return material;
 }
-
-enum class Of {
-  kMotion,
-  kRows,
-  kFloor,
-  kConsistency,
-  kClearances,
-  kClaims,
-  kColumns,
-  kWalk,
-  kOverlaps,
-  kArithmetic
-};
 
 Findings FindingsOf(Of check, const Material& m) {
   Findings findings;
@@ -116,16 +91,6 @@ Findings FindingsOf(Of check, const Material& m) {
   }
   return findings;
 }
-
-struct Wrong {
-  std::string name;
-  Of check;
-  std::function<void(Material&)> tamper;
-  std::string reason;  ///< how it begins
-};
-void PrintTo(const Wrong& wrong, std::ostream* out) { *out << wrong.name; }
-
-using Change = std::function<void(Material&)>;
 
 Change Demand(Family family, double margin) {
   return [=](Material& m) { m.certificate.demanded[family] = margin; };
@@ -361,108 +326,9 @@ std::vector<Wrong> Others() {
        InFlight([](PlayedRow& row) { row.support = Support::kBoth; }), "trajectory.csv:"},
       {"HalfStepOfAnother", Of::kWalk, InFlight([](PlayedRow& row) { ++row.half_step; }),
        "trajectory.csv:"},
-      {"StartDoesNotFollow", Of::kOverlaps, [](Material& m) { m.half_steps[1].start += 1e-6; },
-       "half_steps.csv:3: start"},
-      {"OverlapBeyondItsBound", Of::kOverlaps, [](Material& m) { (*m.overlaps)[0].overlap = 1; },
-       "overlaps.csv:2: overlap"},
-      {"HeightsOfAStepDiffer", Of::kOverlaps,
-       [](Material& m) { m.half_steps[1].height_scale = 0.9; }, "overlaps.csv:2: durations"},
-      {"HeightsOfAStepDifferInHalfSteps", Of::kOverlaps,
-       [](Material& m) { m.half_steps[1].height_scale = 0.9; },
-       "half_steps.csv:3: another height scale"},
-      {"SupportPointsOfAStepDiffer", Of::kOverlaps,
-       [](Material& m) { m.half_steps[1].support_point += 1e-6; },
-       "half_steps.csv:3: another support point"},
-      {"SupportPointNotANumber", Of::kOverlaps,
-       [](Material& m) { m.half_steps[0].support_point = NAN; },
-       "half_steps.csv:2: a number is not finite"},
-      {"RawHalfStepRestsElsewhere", Of::kOverlaps,
-       [](Material& m) {
-         m.overlaps.reset();
-         m.half_steps[0].duration = m.planned.half_steps[0].half_step.duration;
-         m.half_steps[0].height_scale = 1;
-         m.half_steps[0].support_point = 0.01;
-       },
-       "half_steps.csv:2: support point"},
-      {"ViaPointsOfAStepDiffer", Of::kOverlaps,
-       [](Material& m) {
-         for (size_t i : {0, 1}) {
-           m.half_steps[i].form = m.half_steps[i].FormOf(m.planned.half_steps[i].half_step);
-         }
-         m.half_steps[1].form->via_lateral += 1e-6;
-       },
-       "half_steps.csv:3: another via point"},
-      {"ViaPointsOfAStepDifferAlong", Of::kOverlaps,
-       [](Material& m) {
-         for (size_t i : {0, 1}) {
-           m.half_steps[i].form = m.half_steps[i].FormOf(m.planned.half_steps[i].half_step);
-         }
-         m.half_steps[1].form->via_along += 1e-6;
-       },
-       "half_steps.csv:3: a via point elsewhere along"},
-      {"OverlapBeyondTheBoundOfALongerShift", Of::kOverlaps,
-       [](Material& m) {
-         for (size_t i : {0, 1}) {
-           m.half_steps[i].form = m.half_steps[i].FormOf(m.planned.half_steps[i].half_step);
-           m.half_steps[i].form->zmp_shift = 0.5;
-         }
-       },
-       "overlaps.csv:2: overlap"},
-      {"ZmpShiftOfNoHalfStep", Of::kOverlaps,
-       [](Material& m) {
-         m.half_steps[0].form = m.half_steps[0].FormOf(m.planned.half_steps[0].half_step);
-         m.half_steps[0].form->zmp_shift = NAN;
-       },
-       "half_steps.csv:2: ZMP's shift nan"},
-      {"ZmpBumpOfNoHalfStep", Of::kOverlaps,
-       [](Material& m) {
-         m.half_steps[0].form = m.half_steps[0].FormOf(m.planned.half_steps[0].half_step);
-         m.half_steps[0].form->zmp_bump_ramp = 1.1;
-       },
-       "half_steps.csv:2: ZMP's bump ramp 1.1"},
-      {"FormNotANumber", Of::kOverlaps,
-       [](Material& m) { m.half_steps[0].form = FormColumns{0.24, NAN, 0.1, 1, 0, 0.05, 1}; },
-       "half_steps.csv:2: foot ramp nan"},
-      {"FormOfNoHalfStep", Of::kOverlaps,
-       [](Material& m) { m.half_steps[0].form = FormColumns{0.24, 0.5, 0.1, 0.1, 0, 0.05, 1}; },
-       "half_steps.csv:2: lift share 0.1"},
-      {"RawHalfStepInAForm", Of::kOverlaps,
-       [](Material& m) {
-         m.overlaps.reset();
-         m.half_steps[0].duration = m.planned.half_steps[0].half_step.duration;
-         m.half_steps[0].height_scale = 1;
-         m.half_steps[0].form = FormColumns{0.24, 0.4, 0.1, 1, 0, 0.05, 1};
-       },
-       "half_steps.csv:2: a form that is not planned"},
       {"FormThatWasNotWalked", Of::kWalk,
        [](Material& m) { m.half_steps[0].form = FormColumns{0.24, 0.3, 0.1, 1, 0, 0.05, 1}; },
        "trajectory.csv:"},
-      {"OverlapNegative", Of::kOverlaps, [](Material& m) { (*m.overlaps)[0].overlap = -3601; },
-       "overlaps.csv:2: overlap"},
-      {"OverlapOfAnotherKind", Of::kOverlaps,
-       [](Material& m) { (*m.overlaps)[0].kind = "down_up"; }, "overlaps.csv:2: kind"},
-      {"OverlapBetweenOtherDurations", Of::kOverlaps,
-       [](Material& m) { (*m.overlaps)[0].duration_after += 0.1; }, "overlaps.csv:2: durations"},
-      {"DurationNegative", Of::kOverlaps, [](Material& m) { m.half_steps[0].duration = -1; },
-       "half_steps.csv:2: duration"},
-      {"DurationInfinite", Of::kOverlaps,
-       [](Material& m) { m.half_steps[0].duration = std::numeric_limits<double>::infinity(); },
-       "half_steps.csv:2: a number is not finite"},
-      {"HeightNegative", Of::kOverlaps, [](Material& m) { m.half_steps[0].height_scale = -1; },
-       "half_steps.csv:2: height scale"},
-      {"RawHalfStepShorter", Of::kOverlaps,
-       [](Material& m) {
-         m.overlaps.reset();
-         m.half_steps[0].duration = 0.75 * m.planned.half_steps[0].half_step.duration;
-       },
-       "half_steps.csv:2: duration"},
-      {"RawHalfStepLower", Of::kOverlaps,
-       [](Material& m) {
-         m.overlaps.reset();
-         m.half_steps[0].duration = m.planned.half_steps[0].half_step.duration;
-         m.half_steps[0].height_scale = 0.9;
-       },
-       "half_steps.csv:2: height scale"},
       {"DemandOfARowLower", Of::kArithmetic, Claim(kZmp, [](ClaimRow& row) { row.demanded -= 1; }),
        "certificate.csv:"},
       {"EndsElsewhere", Of::kArithmetic, [](Material& m) { m.certificate.duration += 1; },
@@ -472,20 +338,12 @@ std::vector<Wrong> Others() {
       {"FootSpeedLimitZero", Of::kArithmetic, [](Material& m) { m.certificate.foot_speed = 0; },
        "a foot's limit is 0"},
       {"DemandNegative", Of::kArithmetic, Demand(kZmp, -0.1), "a demanded margin is -0.1"},
-      {"KindTurned", Of::kOverlaps, [](Material& m) { m.half_steps[0].kind = "down"; },
-       "half_steps.csv:2: kind"},
-      {"SupportTurned", Of::kOverlaps, [](Material& m) { m.half_steps[0].support = "right"; },
-       "half_steps.csv:2: support"},
-      {"FootstepMoved", Of::kOverlaps, [](Material& m) { m.footsteps[2].X_WF.x += 1e-6; },
-       "footsteps.csv:4: "},
-      {"FootstepFewer", Of::kOverlaps, [](Material& m) { m.footsteps.pop_back(); },
-       "footsteps.csv: 2 rows"},
   };
 }
 
 std::vector<Wrong> All() {
   std::vector<Wrong> all;
-  for (const auto& some : {Rows(), Consistency(), Claims(), Others()}) {
+  for (const auto& some : {Rows(), Consistency(), Claims(), WrongSteps(), Others()}) {
     all.insert(all.end(), some.begin(), some.end());
   }
   return all;

@@ -35,7 +35,7 @@ HalfStepSequence DrawSequence(std::mt19937* random) {
       MakeSequence({level(left), level(right)},
                    {{Side::kRight, level(right * DrawPlace(0.3, random)), 0.1, 1.2},
                     {Side::kLeft, level(left * DrawPlace(0.3, random)), 0.2, 1.5}},
-                   0.2, {}, {.com_height = 0.8});
+                   0.2, {}, std::make_shared<Lipm>(0.8));
   for (auto& [half_step, X_WS] : sequence.half_steps) {
     half_step.duration = Draw(0.3, 3, random);
     half_step.via_along = Draw(-0.1, 0.1, random);

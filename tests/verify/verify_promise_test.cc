@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "experiments/run/exit_status.h"
-#include "tests/live/small_episode.h"
+#include "tests/live/small_files.h"
 #include "tests/verify/verify_mutation.h"
 
 namespace halfstep {
@@ -19,16 +19,10 @@ using Json = nlohmann::ordered_json;
 
 // The small world with a crate of the height of a shin. It is carried against the walking robot.
 void WriteEpisodeFiles(const fs::path& place) {
-  SmallWorld::Get();  // bakes what the command reads from the cache
-  std::string text = kSmallConfig;
-  text.replace(text.find("scene: none"), 11, "scene: crate.yaml");
-  text.replace(text.find("live: {"), 7,
-               "live: {script: [{at_s: 2, do: carry, obstacle: crate, xyz: [0.5, 0.1, 0.3], "
-               "speed_m_s: 0.8}, {at_s: 5, do: vanish, obstacle: crate}], ");
-  WriteText(place / "small.yaml", text);
-  WriteText(place / "crate.yaml",
-            "name: crate\nobstacles:\n  - {name: crate, box: {size_m: [0.2, 0.2, 0.6]}, "
-            "pose: {xyz: [0.5, 1.2, 0.3]}}\n");
+  WriteSmallWorld(place,
+                  "script: [{at_s: 2, do: carry, obstacle: crate, xyz: [0.5, 0.1, 0.3], "
+                  "speed_m_s: 0.8}, {at_s: 5, do: vanish, obstacle: crate}], ",
+                  "crate", "[0.2, 0.2, 0.6]", "[0.5, 1.2, 0.3]");
 }
 
 struct Touched {

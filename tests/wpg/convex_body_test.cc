@@ -13,6 +13,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "tests/refusal_of.h"
+
 namespace halfstep {
 namespace {
 
@@ -28,15 +30,6 @@ Eigen::Matrix3Xd RandomPoints(int count, std::mt19937* random) {
   Eigen::Matrix3Xd points(3, count);
   for (int i = 0; i < count; ++i) points.col(i) = RandomPoint(random);
   return points;
-}
-
-std::string MessageOf(const std::function<void()>& run) {
-  try {
-    run();
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 TEST(ConvexBody, SupportOfPrimitivesIsTheClosedForm) {
@@ -196,12 +189,12 @@ TEST(ConvexBody, DegenerateHullsAreRefusedWithASentenceAndNothingPrinted) {
   nearly.row(2) += 1e-11 * RandomPoints(20, &random).row(0);
   testing::internal::CaptureStderr();
   testing::internal::CaptureStdout();
-  EXPECT_THAT(MessageOf([&] { MakeHull(flat); }), testing::HasSubstr("coplanar"));
-  EXPECT_THAT(MessageOf([&] { MakeHull(nearly); }), testing::HasSubstr("coplanar"));
-  EXPECT_THAT(MessageOf([&] { MakeHull(line); }), testing::HasSubstr("collinear"));
-  EXPECT_THAT(MessageOf([&] { MakeHull(point); }), testing::HasSubstr("coincide"));
-  EXPECT_THAT(MessageOf([&] { MakeHull(wild); }), testing::HasSubstr("not finite"));
-  EXPECT_THAT(MessageOf([&] { MakeHull(flat.leftCols(3)); }), testing::HasSubstr("there are 3"));
+  EXPECT_THAT(RefusalOf([&] { MakeHull(flat); }), testing::HasSubstr("coplanar"));
+  EXPECT_THAT(RefusalOf([&] { MakeHull(nearly); }), testing::HasSubstr("coplanar"));
+  EXPECT_THAT(RefusalOf([&] { MakeHull(line); }), testing::HasSubstr("collinear"));
+  EXPECT_THAT(RefusalOf([&] { MakeHull(point); }), testing::HasSubstr("coincide"));
+  EXPECT_THAT(RefusalOf([&] { MakeHull(wild); }), testing::HasSubstr("not finite"));
+  EXPECT_THAT(RefusalOf([&] { MakeHull(flat.leftCols(3)); }), testing::HasSubstr("there are 3"));
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
   EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
 }

@@ -31,6 +31,14 @@ struct Given {
   double turn = 0.0, push = 0.0;
 };
 
+// The robot at rest on both feet.
+WalkJet Standing(const RobotModel& robot) {
+  WalkJet still;
+  still.value[kLeftY] = 0.5 * robot.standing_width;
+  still.value[kRightY] = -0.5 * robot.standing_width;
+  return still;
+}
+
 // A robot of which only the waist has mass, and that on the floor below the CoM, so that it can ask
 // for whatever the floor is to give.
 class AskingRobot {
@@ -40,9 +48,7 @@ class AskingRobot {
     robot_.masses.waist = {.mass = 0.0,
                            .com = {robot_.com_x_B, 0.0, -robot_.waist_height},
                            .inertia = Vector3d(0, 0, 1).asDiagonal()};
-    const double aside = 0.5 * robot_.standing_width;
-    jet_.value[kLeftY] = aside;
-    jet_.value[kRightY] = -aside;
+    jet_ = Standing(robot_);
   }
 
   RobotDynamics That(const Given& given) {
@@ -152,6 +158,18 @@ struct AtRest {
   }
 };
 
+// HRP-2 at rest on both feet, where no mass has a drift.
+struct Hrp2AtRest {
+  static constexpr double h = 0.01;
+  RobotModel robot = LoadRobot(kHrp2);
+  AtRest rest{robot, Standing(robot), h};
+
+  Hrp2AtRest() {
+    rest.drift.waist_mass = {};
+    for (auto& leg : rest.drift.link_masses) leg.fill({});
+  }
+};
+
 TEST(FootFriction, IsNotExceededWhateverNormsAllow) {
   AskingRobot asking;
   AlgebraDraw draw(12);
@@ -194,15 +212,10 @@ TEST(FootFriction, IsNotExceededWhateverNormsAllow) {
 
 // A link that moves as far, and is pushed as much, as its drift lets it.
 TEST(RobotDrift, HoldsWhatALinkCanAsk) {
-  const RobotModel robot = LoadRobot(kHrp2);
-  WalkJet still;
-  still.value[kLeftY] = 0.5 * robot.standing_width;
-  still.value[kRightY] = -0.5 * robot.standing_width;
-  constexpr double h = 0.01;
-  AtRest rest(robot, still, h);
+  constexpr double h = Hrp2AtRest::h;
+  Hrp2AtRest hrp2;
+  AtRest& rest = hrp2.rest;
   const Vector3d pole(rest.dynamics.Zmp()->x(), rest.dynamics.Zmp()->y(), 0);
-  rest.drift.waist_mass = {};
-  for (auto& leg : rest.drift.link_masses) leg.fill({});
   AlgebraDraw draw(13);
   AlgebraTally horizontal, yaw, force;
   for (int i = 0; i < Draws(20000); ++i) {
@@ -225,7 +238,8 @@ TEST(RobotDrift, HoldsWhatALinkCanAsk) {
     };
     const Vector3d change = moment(link.com + moved, a) - moment(link.com, link.acceleration) +
                             draw.In({{0, 0, 0}, link.moment});
-    const ZmpDrift zmp = ZmpDrift::Over(robot, rest.motion, {}, rest.drift, rest.dynamics, kEarth);
+    const ZmpDrift zmp =
+        ZmpDrift::Over(hrp2.robot, rest.motion, {}, rest.drift, rest.dynamics, kEarth);
     horizontal.Compare(change.head<2>().norm(), zmp.Most() * zmp.least_push, 100.0);
     yaw.Compare(std::abs(change.z()), rest.drift.YawMomentDrift(pole - rest.dynamics.O()), 100.0);
     force.Compare(link.mass * (a - link.acceleration).norm(), rest.drift.ForceDrift(), 100.0);
@@ -241,15 +255,11 @@ TEST(RobotDrift, HoldsWhatALinkCanAsk) {
 // Both feet stand, the waist moves and is pushed, the ZMP goes and the hip's axes turn, each as
 // much as its drift lets it: few of that at a time.
 TEST(TorqueDrift, HoldsWhateverSharesAndAxesDo) {
-  const RobotModel robot = LoadRobot(kHrp2);
-  WalkJet still;
-  still.value[kLeftY] = 0.5 * robot.standing_width;
-  still.value[kRightY] = -0.5 * robot.standing_width;
-  constexpr double h = 0.01;
-  AtRest rest(robot, still, h);
+  constexpr double h = Hrp2AtRest::h;
+  Hrp2AtRest hrp2;
+  AtRest& rest = hrp2.rest;
   const RobotDynamics& dynamics = rest.dynamics;
   const Vector2d zmp = *dynamics.Zmp();
-  for (auto& leg : rest.drift.link_masses) leg.fill({});
   AlgebraDraw draw(14);
   AlgebraTally torque;
   for (int i = 0; i < Draws(6000); ++i) {
@@ -308,16 +318,12 @@ TEST(TorqueDrift, HoldsWhateverSharesAndAxesDo) {
 // A foot that has no load at m takes some while what presses changes, while the axis turns, while
 // the push grows: products of two changes, of which each is alone here.
 TEST(TorqueDrift, HoldsWhatAFootTakesThatHadNone) {
-  const RobotModel robot = LoadRobot(kHrp2);
-  WalkJet still;
-  still.value[kLeftY] = 0.5 * robot.standing_width;
-  still.value[kRightY] = -0.5 * robot.standing_width;
-  constexpr double h = 0.01;
+  constexpr double h = Hrp2AtRest::h;
   constexpr size_t kLeg = 1;
-  AtRest rest(robot, still, h);
+  Hrp2AtRest hrp2;
+  AtRest& rest = hrp2.rest;
   const RobotDynamics& dynamics = rest.dynamics;
   const Vector2d zmp = *dynamics.Zmp();
-  for (auto& leg : rest.drift.link_masses) leg.fill({});
   Vector6d hung = Vector6d::Zero();
   for (const RobotDynamics::Body& link : dynamics.leg(Side::kRight)) hung += link.force;
   const auto point = [&](size_t joint) -> Vector3d {

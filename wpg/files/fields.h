@@ -76,7 +76,7 @@ class Fields {
   /// `present`. So "exactly one of" is a row of optional groups and a Complain().
   virtual void OptionalGroup(const char* key, bool* present, const GroupSpec& spec,
                              const std::function<void(Fields&)>& declare) {
-    *present = Group(key, spec, declare);
+    if (*present) Group(key, spec, declare);
   }
   /// A list of maps, `declare(fields, &item)` for each; items read replace those held before.
   template <typename Item>
@@ -93,7 +93,7 @@ class Fields {
   /// A complaint about the value of `key` of this group ("" for the group itself) that a range
   /// cannot express, reported at its place. Ignored by visitors that do not read, in an absent
   /// group, and where `key` has been complained about already.
-  virtual void Complain(const char* key, const std::string& what) = 0;
+  virtual void Complain(const char* /*key*/, const std::string& /*what*/) {}
   /// Complains about `old_key`, the former name of `new_key`, where the file still has it. Ignored
   /// by visitors that do not read.
   virtual void Renamed(const char* /*old_key*/, const char* /*new_key*/) {}
@@ -104,7 +104,7 @@ class Fields {
   /// visitors that do not read. For maps whose keys are names that the user chooses.
   virtual std::vector<std::string> Keys() const { return {}; }
   /// Directory of the file being read, for relative paths; "" otherwise.
-  virtual std::string directory() const = 0;
+  virtual std::string directory() const { return ""; }
 };
 
 }  // namespace halfstep

@@ -27,43 +27,43 @@ class Describer : public Fields {
   std::vector<KeyDescription> Take() { return std::move(keys_); }
 
   void Number(const char* key, double* value, const NumberSpec& spec) override {
-    AddNumber(Kind::kNumber, key, spec, [&](Fields& f) { f.Number(key, value, spec); });
+    AddValue(Kind::kNumber, key, spec, [&](Fields& f) { f.Number(key, value, spec); });
   }
   void OptionalNumber(const char* key, std::optional<double>* value,
                       const NumberSpec& spec) override {
     NumberSpec written = spec;
     written.left_out.reset();  // the default is told, too, where files leave it out
-    AddNumber(Kind::kOptionalNumber, key, spec,
-              [&](Fields& f) { f.OptionalNumber(key, value, written); });
+    AddValue(Kind::kOptionalNumber, key, spec,
+             [&](Fields& f) { f.OptionalNumber(key, value, written); });
   }
   void Integer(const char* key, int* value, const NumberSpec& spec) override {
     KeyDescription& added =
-        AddNumber(Kind::kInteger, key, spec, [&](Fields& f) { f.Integer(key, value, spec); });
+        AddValue(Kind::kInteger, key, spec, [&](Fields& f) { f.Integer(key, value, spec); });
     added.min = std::max<double>(spec.min, std::numeric_limits<int>::min());
     added.max = std::min<double>(spec.max, std::numeric_limits<int>::max());
   }
   void Boolean(const char* key, bool* value, const TextSpec& spec) override {
-    AddText(Kind::kBoolean, key, spec, [&](Fields& f) { f.Boolean(key, value, spec); });
+    AddValue(Kind::kBoolean, key, spec, [&](Fields& f) { f.Boolean(key, value, spec); });
   }
   void Text(const char* key, std::string* value, const TextSpec& spec) override {
-    AddText(Kind::kText, key, spec, [&](Fields& f) { f.Text(key, value, spec); });
+    AddValue(Kind::kText, key, spec, [&](Fields& f) { f.Text(key, value, spec); });
   }
   void Texts(const char* key, std::vector<std::string>* value, const TextSpec& spec) override {
     KeyDescription& added =
-        AddText(Kind::kTexts, key, spec, [&](Fields& f) { f.Texts(key, value, spec); });
+        AddValue(Kind::kTexts, key, spec, [&](Fields& f) { f.Texts(key, value, spec); });
     added.max_items = kAnyNumber;
   }
   void Numbers(const char* key, std::vector<double>* value, size_t count,
                const NumberSpec& spec) override {
-    KeyDescription& added = AddNumber(Kind::kNumbers, key, spec,
-                                      [&](Fields& f) { f.Numbers(key, value, count, spec); });
+    KeyDescription& added =
+        AddValue(Kind::kNumbers, key, spec, [&](Fields& f) { f.Numbers(key, value, count, spec); });
     added.min_items = count;
     added.max_items = count == 0 ? kAnyNumber : count;
   }
   void Points(const char* key, Eigen::Matrix2Xd* value, const GroupSpec& list,
               const NumberSpec& number) override {
-    KeyDescription& added = AddNumber(Kind::kPoints, key, number,
-                                      [&](Fields& f) { f.Points(key, value, list, number); });
+    KeyDescription& added = AddValue(Kind::kPoints, key, number,
+                                     [&](Fields& f) { f.Points(key, value, list, number); });
     AddItems(list, &added);
   }
   bool Group(const char* key, const GroupSpec& spec,
@@ -92,8 +92,6 @@ class Describer : public Fields {
     resize(0);
     added.keys = describer.Take();
   }
-  void Complain(const char*, const std::string&) override {}
-  std::string directory() const override { return ""; }
 
  private:
   KeyDescription& Add(Kind kind, const std::string& key, const char* meaning, bool required) {
@@ -107,23 +105,24 @@ class Describer : public Fields {
                      .listed_by = ""});
     return keys_.back();
   }
-  KeyDescription& AddNumber(Kind kind, const char* key, const NumberSpec& spec,
-                            const std::function<void(Fields&)>& declare) {
+  // With its default value.
+  template <typename Spec>
+  KeyDescription& AddValue(Kind kind, const char* key, const Spec& spec,
+                           const std::function<void(Fields&)>& declare) {
     KeyDescription& added = Add(kind, key, spec.meaning, spec.required);
-    added.unit = spec.unit;
-    added.min = spec.min;
-    added.max = spec.max;
     if (!spec.required) added.default_text = DefaultText(declare);
+    Describe(spec, &added);
     return added;
   }
-  KeyDescription& AddText(Kind kind, const char* key, const TextSpec& spec,
-                          const std::function<void(Fields&)>& declare) {
-    KeyDescription& added = Add(kind, key, spec.meaning, spec.required);
-    added.choices = spec.choices;
-    added.listed_by = spec.listed_by;
-    added.otherwise = spec.otherwise;
-    if (!spec.required) added.default_text = DefaultText(declare);
-    return added;
+  static void Describe(const NumberSpec& spec, KeyDescription* added) {
+    added->unit = spec.unit;
+    added->min = spec.min;
+    added->max = spec.max;
+  }
+  static void Describe(const TextSpec& spec, KeyDescription* added) {
+    added->choices = spec.choices;
+    added->listed_by = spec.listed_by;
+    added->otherwise = spec.otherwise;
   }
   static void AddItems(const GroupSpec& spec, KeyDescription* added) {
     added->required = spec.required;

@@ -32,8 +32,6 @@ class NumberVisitor : public Fields {
   void Points(const char*, Eigen::Matrix2Xd*, const GroupSpec&, const NumberSpec&) override {}
   void Items(const char*, const GroupSpec&, size_t, const std::function<void(size_t)>&,
              const std::function<void(Fields&, size_t)>&) override {}
-  void Complain(const char*, const std::string&) override {}
-  std::string directory() const override { return ""; }
 
  private:
   std::string prefix_;

@@ -33,6 +33,10 @@ class YamlReader : public Fields {
               const NumberSpec& number) override;
   bool Group(const char* key, const GroupSpec& spec,
              const std::function<void(Fields&)>& declare) override;
+  void OptionalGroup(const char* key, bool* present, const GroupSpec& spec,
+                     const std::function<void(Fields&)>& declare) override {
+    *present = Group(key, spec, declare);
+  }
   void Items(const char* key, const GroupSpec& spec, size_t size,
              const std::function<void(size_t)>& resize,
              const std::function<void(Fields&, size_t)>& declare) override;

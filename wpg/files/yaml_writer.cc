@@ -96,10 +96,6 @@ class YamlWriter : public Fields {
     text_ += writer.text_;
     return true;
   }
-  void OptionalGroup(const char* key, bool* present, const GroupSpec& spec,
-                     const std::function<void(Fields&)>& declare) override {
-    if (*present) Group(key, spec, declare);
-  }
   void Items(const char* key, const GroupSpec&, size_t size, const std::function<void(size_t)>&,
              const std::function<void(Fields&, size_t)>& declare) override {
     Line(key, size == 0 ? "[]" : "");
@@ -110,8 +106,6 @@ class YamlWriter : public Fields {
       text_ += writer.text_.empty() ? dash + "{}\n" : dash + writer.text_.substr(dash.size());
     }
   }
-  void Complain(const char*, const std::string&) override {}
-  std::string directory() const override { return ""; }
 
  private:
   void Line(const std::string& key, const std::string& value) {

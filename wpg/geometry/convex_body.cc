@@ -34,6 +34,16 @@ ConvexBody MakeSegment(double length) {
   return body;
 }
 
+// Rounded by discs or balls about the segment.
+ConvexBody MakeRound(double radius, double length, double ConvexBody::*rounding) {
+  HALFSTEP_CHECK(std::isfinite(radius) && radius > 0, "radius = " << radius);
+  HALFSTEP_CHECK(std::isfinite(length) && length > 0, "length = " << length);
+  ConvexBody body = MakeSegment(length);
+  body.*rounding = radius;
+  BoundBySphere(&body);
+  return body;
+}
+
 }  // namespace
 
 double Support(const ConvexBody& body, const Eigen::Vector3d& direction) {
@@ -134,21 +144,11 @@ ConvexBody MakeSphere(double radius) {
 }
 
 ConvexBody MakeCylinder(double radius, double length) {
-  HALFSTEP_CHECK(std::isfinite(radius) && radius > 0, "radius = " << radius);
-  HALFSTEP_CHECK(std::isfinite(length) && length > 0, "length = " << length);
-  ConvexBody body = MakeSegment(length);
-  body.disc_radius = radius;
-  BoundBySphere(&body);
-  return body;
+  return MakeRound(radius, length, &ConvexBody::disc_radius);
 }
 
 ConvexBody MakeCapsule(double radius, double length) {
-  HALFSTEP_CHECK(std::isfinite(radius) && radius > 0, "radius = " << radius);
-  HALFSTEP_CHECK(std::isfinite(length) && length > 0, "length = " << length);
-  ConvexBody body = MakeSegment(length);
-  body.ball_radius = radius;
-  BoundBySphere(&body);
-  return body;
+  return MakeRound(radius, length, &ConvexBody::ball_radius);
 }
 
 }  // namespace halfstep

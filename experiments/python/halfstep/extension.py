@@ -19,7 +19,21 @@ from .walk import Walk, number, vector
 __all__ = ["SmoothingProblem", "SolverProblem", "register_smoother", "register_solver"]
 
 
-class SmoothingProblem:
+class _Task:
+    _task: Any
+
+    @property
+    def stopped(self) -> bool:
+        """Whether your function is to return: Ctrl-C came or the deadline passed."""
+        return self._task.stopped
+
+    @property
+    def remaining(self) -> float:
+        """Until the deadline [s]."""
+        return self._task.remaining
+
+
+class SmoothingProblem(_Task):
     """What a smoother of yours is given. It is over when your function returns."""
 
     def __init__(self, task: Any) -> None:
@@ -36,16 +50,6 @@ class SmoothingProblem:
     def duration(self) -> float:
         """Of the incumbent [s]."""
         return self._task.duration
-
-    @property
-    def stopped(self) -> bool:
-        """Whether your function is to return: Ctrl-C came or the deadline passed."""
-        return self._task.stopped
-
-    @property
-    def remaining(self) -> float:
-        """Until the deadline [s]."""
-        return self._task.remaining
 
     @property
     def options(self) -> dict[str, Any]:
@@ -88,7 +92,7 @@ class SmoothingProblem:
         self._task.tell(min(1.0, max(0.0, number("done", done))))
 
 
-class SolverProblem:
+class SolverProblem(_Task):
     """What a solver of yours is given: minimize ``cost(x)`` subject to ``constraint_lower <=
     constraints(x) <= constraint_upper`` and ``lower <= x <= upper``. Evaluations are counted and
     raise SolveStopped when the solve is to end; the best point that was evaluated is kept."""
@@ -110,16 +114,6 @@ class SolverProblem:
         self._starts = np.searchsorted(np.asarray(rows)[self._order],
                                        np.arange(len(self.constraint_lower) + 1)).astype(np.int32)
         self._columns = np.asarray(columns, dtype=np.int32)[self._order]
-
-    @property
-    def stopped(self) -> bool:
-        """Whether your function is to return."""
-        return self._task.stopped
-
-    @property
-    def remaining(self) -> float:
-        """Until the deadline [s]."""
-        return self._task.remaining
 
     def cost(self, x: np.ndarray) -> float:
         """The cost at x (n)."""

@@ -1,0 +1,21 @@
+# Sets `there` to whether the paths that follow were found. Otherwise, and with HALFSTEP_WITH_NAME=OFF,
+# `target` gets no_name.cc, which says why; with ON that is an error.
+function(halfstep_optional_part target name library package there)
+  string(TOUPPER ${name} upper)
+  set(option HALFSTEP_WITH_${upper})
+  set(${there} FALSE PARENT_SCOPE)
+  if(NOT ${option})
+    set(why "Not compiled in: built with ${option}=OFF.")
+  elseif(NOT "${ARGN}" MATCHES "-NOTFOUND")
+    set(${there} TRUE PARENT_SCOPE)
+    return()
+  elseif(${option} STREQUAL "ON")
+    message(FATAL_ERROR "${option}=ON, but ${library} was not found")
+  else()
+    set(why "Not compiled in: ${library} (${package}) was not found when halfstep was built.")
+  endif()
+  message(STATUS "${target}: ${why}")
+  target_sources(${target} PRIVATE no_${name}.cc)
+  set_source_files_properties(no_${name}.cc PROPERTIES
+    COMPILE_DEFINITIONS "HALFSTEP_WHY_NO_${upper}=\"${why}\"")
+endfunction()
