@@ -11,7 +11,6 @@
 #include "experiments/verify/tolerances.h"
 #include "wpg/check.h"
 #include "wpg/nth.h"
-#include "wpg/robot/gravity.h"
 
 namespace halfstep::verify {
 

@@ -7,7 +7,7 @@
 #include "experiments/replay/simulation.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/parsed_csv.h"
-#include "tests/live/short_episode.h"
+#include "tests/experiments/short_episode.h"
 #include "tests/replaced.h"
 #include "tests/temporary_folder.h"
 
