@@ -34,7 +34,7 @@ int main() {
                                                 {"smoothing.optimizer.heights", "true"},
                                                 {"smoothing.optimizer.weights.lift", weight},
                                                 {"smoothing.optimizer.rounds", "4"}},
-                                               methods);
+                                               {methods});
     const WalkProblem problem = ProblemOf(Prepare(config));
     SmoothingMonitor monitor;
     const SmoothingResult result =

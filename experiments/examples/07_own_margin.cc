@@ -32,10 +32,10 @@ int main(int argc, char** argv) {
   const bool limited = argc < 2 || std::string(argv[1]) != "without";
   Methods methods = Methods::Standard();
   if (limited) methods.AddMargin(std::make_shared<ComSpeed>());
-  if (argc > 2) return RunExperiment(argc, argv, methods);  // `run CONFIG` keeps it, too
+  if (argc > 2) return RunExperiment(argc, argv, {methods});  // `run CONFIG` keeps it, too
   const ExperimentConfig config =
       LoadConfig((DataFolder() / "configs/bar_8cm.yaml").string(),
-                 {{"smoothing.optimizer.all_families", "false"}}, methods);
+                 {{"smoothing.optimizer.all_families", "false"}}, {methods});
   const WalkProblem problem = ProblemOf(Prepare(config));
   SmoothingMonitor monitor;
   const SmoothingResult result =

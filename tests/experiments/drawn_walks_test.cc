@@ -6,8 +6,10 @@
 #include <string>
 
 #include "experiments/config/experiment.h"
+#include "experiments/run/exit_status.h"
 #include "experiments/sweep/sweep_config.h"
 #include "smoothing/proof/certified_feasibility.h"
+#include "tests/experiments/child_process.h"
 #include "tests/experiments/parsed_csv.h"
 #include "tests/experiments/run_check.h"
 #include "tests/temporary_folder.h"

@@ -141,7 +141,7 @@ TEST(StarterConfig, SaysWhyStepsAreShort) {
               HasSubstr("m in place of 0.211 m: with longer ones a leg comes to its limits."));
 }
 
-std::string RefusalOf(const std::string& urdf) {
+std::string UrdfRefusal(const std::string& urdf) {
   const TemporaryFolder place;
   try {
     (void)SurveyRobot({.urdf = WriteText(place / "robot.urdf", urdf)});
@@ -154,17 +154,17 @@ std::string RefusalOf(const std::string& urdf) {
 TEST(RobotSurvey, SaysFirstWhatKeepsARobotFromBeingOfTheClass) {
   GeneratedRobot robot = GeneratedRobots()[0];
   const std::string good = GeneratedUrdf(robot);
-  EXPECT_EQ(RefusalOf(good), "");
-  EXPECT_THAT(RefusalOf("<robot name='r'><link name='stone'/></robot>"),
+  EXPECT_EQ(UrdfRefusal(good), "");
+  EXPECT_THAT(UrdfRefusal("<robot name='r'><link name='stone'/></robot>"),
               HasSubstr("there are no two legs (valid: two legs of six revolute joints)"));
-  EXPECT_THAT(RefusalOf(std::regex_replace(good, std::regex("joint5' type='revolute'"),
-                                           "joint5' type='fixed'")),
+  EXPECT_THAT(UrdfRefusal(std::regex_replace(good, std::regex("joint5' type='revolute'"),
+                                             "joint5' type='fixed'")),
               HasSubstr("has 5 moving joints"));
   // What is wrong with a finger is told later, and as a warning.
   const std::string finger =
       "<link name='finger'/><joint name='grip' type='revolute'><parent link='waist'/>"
       "<child link='finger'/><axis xyz='0 0 0'/></joint></robot>";
-  EXPECT_EQ(RefusalOf(Replaced(good, "</robot>", finger)), "");
+  EXPECT_EQ(UrdfRefusal(Replaced(good, "</robot>", finger)), "");
 }
 
 TEST(ScaledDefaults, AreHrp2sForHrp2) {

@@ -13,6 +13,7 @@
 #include <string>
 #include <thread>
 
+#include "tests/experiments/child_process.h"
 #include "tests/refusal_of.h"
 #include "tests/temporary_folder.h"
 

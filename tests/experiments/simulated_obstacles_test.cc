@@ -1,5 +1,5 @@
-#include "experiments/config/data_folder.h"
 #include "experiments/replay/simulated_obstacles.h"
+#include "experiments/config/data_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -21,7 +21,7 @@ namespace halfstep {
 namespace {
 
 // One step of the right foot, 0.2 m ahead.
-HalfStepSequence OneStep(const RobotModel& robot) {
+HalfStepSequence RightStep(const RobotModel& robot) {
   return MakeSequence(StandingFeet(),
                       {{.side = Side::kRight, .X_WF = Foothold::Level({0.2, -0.105, 0.1})}}, 0.24,
                       {}, std::make_shared<Lipm>(robot.com_height));
@@ -38,7 +38,7 @@ class MarginEvaluatorTest : public testing::Test {
 
   const RobotModel robot_ =
       WithAccelerationLimits(WithTorqueLimits(WithSymmetricMasses(Hrp2()), 300.0), 300.0);
-  const HalfStepSequence sequence_ = OneStep(robot_);
+  const HalfStepSequence sequence_ = RightStep(robot_);
   const SuperposedWalk walk_{sequence_, PlannedMotion(sequence_)};
 };
 

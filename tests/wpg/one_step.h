@@ -1,8 +1,8 @@
 #pragma once
 
 #include "wpg/motion/half_step_sequence.h"
-#include "wpg/robot/robot_model.h"
 #include "wpg/motion/lipm.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 

@@ -7,6 +7,7 @@
 
 #include <string>
 
+#include "tests/replaced.h"
 #include "tests/wpg/generated_robots.h"
 #include "tests/wpg/shipped_robots.h"
 #include "wpg/robot/robot_tree.h"
