@@ -23,8 +23,9 @@ constexpr int SoleX(int side) { return side == 0 ? kLeftX : kRightX; }
 
 /// The numbers of a walk at an instant and their time derivatives [1/s], [1/s²].
 struct WalkInstant {
-  WalkNumbers value = WalkNumbers::Zero();
-  WalkNumbers first = WalkNumbers::Zero(), second = WalkNumbers::Zero();
+  WalkNumbers value = WalkNumbers::Zero();   ///< [m], [rad]
+  WalkNumbers first = WalkNumbers::Zero();   ///< [m/s], [rad/s]
+  WalkNumbers second = WalkNumbers::Zero();  ///< [m/s²], [rad/s²]
 };
 
 /// A half-step as a function of its local time τ [s], in W: at rest before 0 and after T.

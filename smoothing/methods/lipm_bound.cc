@@ -120,10 +120,10 @@ LipmBound LowerBound(const WalkProblem& problem) {
 }
 
 SmoothingResult TellLipmBound(const WalkProblem& problem, SmoothingMonitor& monitor) {
+  if (!monitor.BeginFeasibly(problem, problem.Start())) return monitor.Refusal();
   if (dynamic_cast<const Lipm*>(problem.sequence().model.get()) == nullptr) {
     return monitor.Finish(opt::Ending::kNotRun, "the half-steps' model is no LIPM");
   }
-  if (!monitor.BeginFeasibly(problem, problem.Start())) return monitor.Refusal();
   const LipmBound bound = LowerBound(problem);
   monitor.result().lower_bound = bound.total();
   PlainStream message;

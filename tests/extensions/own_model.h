@@ -65,7 +65,7 @@ class PolynomialModel : public MotionModel {
 
    protected:
     // sup of the derivatives of the polynomial by their order, from above.
-    static constexpr std::array<double, 5> kMost = {1.0, 2.47, 9.4, 79.0, 620.0};
+    static constexpr std::array<double, 5> kMost = {1.0, 2.47, 9.4, 79.0, 625.0};
 
     // The n-th derivative in σ.
     double D(int n, double sigma) const {

@@ -76,8 +76,9 @@ TEST(OwnModel, ItsWalksAreSmoothedAndCertifiedByTheRobotsZmp) {
   const WalkProblem problem(SixSteps(e, std::make_shared<PolynomialModel>(e.robot.com_height)),
                             test);
   SmoothingMonitor monitor;
+  const Methods methods = Methods::Standard();
   const SmoothingResult result =
-      Methods::Standard().Find("dichotomy").Smooth(problem, e.config.smoothing.options, monitor);
+      methods.Find("dichotomy").Smooth(problem, e.config.smoothing.options, monitor);
   EXPECT_TRUE(result.feasible) << result.message;
   EXPECT_LT(DurationOf(result.parameters), 0.6 * DurationOf(problem.Start()));
   RecordProperty("duration_s", std::to_string(DurationOf(result.parameters)));
@@ -91,9 +92,9 @@ TEST(OwnModel, TheBoundOfLipmsIsNotToldOfIt) {
   const WalkProblem problem(SixSteps(e, std::make_shared<PolynomialModel>(e.robot.com_height)),
                             test);
   SmoothingMonitor monitor;
-  const SmoothingResult result = Methods::Standard()
-                                     .Find("reference/lipm")
-                                     .Smooth(problem, e.config.smoothing.options, monitor);
+  const Methods methods = Methods::Standard();
+  const SmoothingResult result =
+      methods.Find("reference/lipm").Smooth(problem, e.config.smoothing.options, monitor);
   EXPECT_EQ(result.ending, opt::Ending::kNotRun);
   EXPECT_EQ(result.message, "the half-steps' model is no LIPM");
 }

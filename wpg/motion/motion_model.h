@@ -19,7 +19,8 @@ class MotionModel {
  public:
   /// Profiles of both axes of the CoM, and of the ZMP, which rests while the foot is in the air.
   struct Proposal {
-    std::shared_ptr<const Profile> com, zmp;
+    std::shared_ptr<const Profile> com;  ///< of the CoM
+    std::shared_ptr<const Profile> zmp;  ///< of the ZMP
   };
 
   virtual ~MotionModel() = default;

@@ -23,8 +23,10 @@ std::array<UnitDual, 2> Ends(const UnitSeries& c, double x);
 
 /// CoM c and ZMP p on a piece of [0, ½], in powers of x = (σ − center)/width.
 struct UnitPiece {
-  UnitDual center, width;
-  UnitSeries com, zmp;
+  UnitDual center;  ///< of x = 0
+  UnitDual width;   ///< of x from 0 to 1
+  UnitSeries com;   ///< c
+  UnitSeries zmp;   ///< p
 };
 
 /// The pre-bump −B of RestToRest on [0, σ₁], `first` = σ₁, and the CoM's motion under it from rest;
