@@ -19,8 +19,8 @@ struct RunCommand {
   std::optional<std::string> out;  ///< run folder
   bool overwrite = false;
   bool quiet = false;
-  bool json = false;  ///< prints the summary as one JSON object instead of a table
-  Toolbox tools;      ///< that configs may name
+  bool json = false;   ///< prints the summary as one JSON object instead of a table
+  Toolbox tools = {};  ///< that configs may name
 };
 
 /// `halfstep run`: plan, smooth with each method, write the run folder, print the table.
@@ -44,7 +44,7 @@ struct RecoverCommand {
   std::string episode;     ///< the folder that the episode would have written
   bool overwrite = false;  ///< replaces an older one
   bool quiet = false;
-  Toolbox tools;  ///< that configs may name
+  Toolbox tools = {};  ///< that configs may name
 };
 
 /// `halfstep recover`: writes the folder of an episode whose process was killed, from what it left
@@ -79,7 +79,7 @@ struct CompareCommand {
   std::optional<std::string> out;  ///< folder for the tables; none: the screen only
   bool overwrite = false;
   bool quiet = false;
-  Toolbox tools;  ///< that configs may name
+  Toolbox tools = {};  ///< that configs may name
 };
 
 /// `halfstep compare`: methods against each other over runs. Throws InputError for what is no run,
@@ -90,7 +90,7 @@ struct CertifyCommand {
   std::string run;  ///< a run folder
   std::vector<YamlOverride> overrides;
   bool quiet = false;
-  Toolbox tools;  ///< that configs may name
+  Toolbox tools = {};  ///< that configs may name
 };
 
 /// `halfstep certify`: makes the certificates of a run's walks again, from its config and overlaps,
@@ -110,7 +110,7 @@ struct ExportCommand {
       joints;  ///< globs in joint order, hrpsys, joint_trajectory; empty: URDF's
   bool overwrite = false;
   bool quiet = false;
-  Toolbox tools;  ///< that configs may name
+  Toolbox tools = {};  ///< that configs may name
 };
 
 /// `halfstep export`: walks of a run in other programs' formats. Throws InputError.
@@ -124,7 +124,7 @@ struct ReplayCommand {
   bool out = false;             ///< write METHOD/replay.csv, of an episode replay.csv, there
   bool quiet = false;
   bool json = false;
-  Toolbox tools;  ///< that configs may name
+  Toolbox tools = {};  ///< that configs may name
 };
 
 /// `halfstep replay`: plays the walks of a run, or the walk of an episode, on a simulated robot
@@ -139,7 +139,7 @@ struct ReportCommand {
   VideoOptions options;              ///< of the video
   bool overwrite = false;            ///< replaces `out` or `video` when it is there
   bool quiet = false;
-  Toolbox tools;  ///< that configs may name
+  Toolbox tools = {};  ///< that configs may name
 };
 
 /// `halfstep report`: the page of a run (report/report.h), or a video of it (report/walk_video.h).
@@ -152,7 +152,7 @@ struct PlanCommand {
   std::vector<YamlOverride> overrides;
   bool quiet = false;
   bool json = false;
-  Toolbox tools;  ///< that configs may name
+  Toolbox tools = {};  ///< that configs may name
 };
 
 /// `halfstep plan`: the footsteps to the goal, as YAML that can replace it, or as JSON. kFailed
@@ -175,7 +175,7 @@ struct SweepCommand {
   bool check = false;                   ///< only reads the configs of the cases
   bool collect = false;                 ///< writes runs.csv from cases that are done
   bool quiet = false;
-  Toolbox tools;  ///< that configs may name
+  Toolbox tools = {};  ///< that configs may name
 };
 
 /// `halfstep sweep`: every case of a sweep, each by a process of its own, then runs.csv. Cases that
@@ -187,7 +187,7 @@ struct ExplainCommand {
   std::string key;    ///< a key, or the end of one; "": all keys
   std::string robot;  ///< name or path of a robot whose defaults are told; "": their formulas
   bool json_schema = false, markdown = false;
-  Toolbox tools;  ///< that configs may name
+  Toolbox tools = {};  ///< that configs may name
 };
 
 /// `halfstep explain-config`: the keys of a config as its reader declares them. Throws InputError

@@ -33,7 +33,7 @@ struct SweepConfig {
   std::vector<SweepAxis> vary;   ///< every combination is a case
   std::string keep = "summary";  ///< or "all"
   std::string directory;         ///< of the file
-  Toolbox tools;                 ///< that its configs may name
+  Toolbox tools = {};            ///< that its configs may name
   /// Whether a case runs `reference/lipm`, so that runs.csv has gap_lipm.
   bool with_bound = false;
 

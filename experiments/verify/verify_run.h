@@ -21,7 +21,7 @@ struct VerifyOptions {
   std::optional<double> tolerance = {};    ///< see above; 0 … 1 [m]
   std::optional<std::string> robot = {};   ///< YAML instead of the certificate's
   std::optional<std::string> scene = {};   ///< YAML instead of the certificate's
-  Toolbox tools;                           ///< that this program knows
+  Toolbox tools = {};                      ///< that this program knows
 };
 
 /// What was found about one method of a run, or about an episode.

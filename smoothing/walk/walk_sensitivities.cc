@@ -75,19 +75,21 @@ class UnderWay {
   ProfileJets profiles_;
 };
 
+// Along what changes the states of `half_step` at rest, on the floor and at the via point, in W.
 void AddOfStates(const HalfStep& half_step, const RestStateSlopes& slopes,
                  const UnderWay& under_way, WalkJet* jet) {
   const bool up = half_step.kind == HalfStepKind::kUp;
   under_way.AddOfStates(up ? slopes.floor : slopes.via, up ? slopes.via : slopes.floor, jet);
 }
 
-// The states' slopes, in W, along a parameter that is a number of them, or multiplies one.
+// The slope in W of the state at the via point, along a parameter that is a number of it, or
+// multiplies one.
 RestStateSlopes SlopesAlong(const ParameterFamilyTraits& traits, const HalfStep& half_step,
-                            HalfStep planned, const Eigen::Matrix2d& R_WS) {
-  RestStateSlopes slopes = traits.number != nullptr ? SlopesOfStates(half_step, traits.number)
-                                                    : SlopesOfStates(half_step, traits.shape);
-  const double scale = traits.factor ? *traits.number_of(&planned) : 1.0;
-  for (WalkState* slope : {&slopes.floor, &slopes.via}) *slope = scale * Turned(R_WS, *slope);
+                            const HalfStep& planned, const Eigen::Matrix2d& R_WS) {
+  const WalkState via_S = traits.number != nullptr ? ViaSlope(half_step, traits.number)
+                                                   : ViaSlope(half_step, traits.shape);
+  RestStateSlopes slopes{.via = Turned(R_WS, via_S)};
+  if (traits.factor) slopes.via *= planned.*traits.number;
   return slopes;
 }
 

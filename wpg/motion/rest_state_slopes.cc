@@ -3,13 +3,12 @@
 namespace halfstep {
 namespace {
 
-// The states are affine in the number, with coefficients 0 and ±1: exactly their difference.
-template <typename SetNumber>
-RestStateSlopes Between(const HalfStep& half_step, const SetNumber& set) {
-  HalfStep none = half_step, one = half_step;
-  set(&none, 0.0);
-  set(&one, 1.0);
-  return {.floor = one.OnFloor() - none.OnFloor(), .via = one.AtVia() - none.AtVia()};
+// AtVia() is affine in the number, with coefficients 0 and ±1: exactly their difference.
+WalkState Slope(HalfStep* half_step, double* number_of_it) {
+  *number_of_it = 0.0;
+  const WalkState none = half_step->AtVia();
+  *number_of_it = 1.0;
+  return half_step->AtVia() - none;
 }
 
 void MoveFoot(Side side, const SoleMove& by, WalkState* x) {
@@ -19,12 +18,12 @@ void MoveFoot(Side side, const SoleMove& by, WalkState* x) {
 
 }  // namespace
 
-RestStateSlopes SlopesOfStates(const HalfStep& half_step, double HalfStep::*number) {
-  return Between(half_step, [number](HalfStep* h, double x) { h->*number = x; });
+WalkState ViaSlope(HalfStep half_step, double HalfStep::*number) {
+  return Slope(&half_step, &(half_step.*number));
 }
 
-RestStateSlopes SlopesOfStates(const HalfStep& half_step, double HalfStepShape::*number) {
-  return Between(half_step, [number](HalfStep* h, double x) { h->shape.*number = x; });
+WalkState ViaSlope(HalfStep half_step, double HalfStepShape::*number) {
+  return Slope(&half_step, &(half_step.shape.*number));
 }
 
 RestStateSlopes SlopesOfStates(const HalfStep& half_step, const Foothold& X_WS,

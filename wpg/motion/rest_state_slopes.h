@@ -17,11 +17,12 @@ struct RestStateSlopes {
   WalkState via = WalkState::Zero();    ///< of HalfStep::AtVia()
 };
 
-/// The slopes, in S, along a number of the half-step that its states are affine in, all else equal:
-/// via_height, via_lateral, via_along, support_point. They are constant.
-RestStateSlopes SlopesOfStates(const HalfStep& half_step, double HalfStep::*number);
+/// How AtVia() changes, in S, per unit of a number of the half-step that it is affine in:
+/// via_height, via_lateral, via_along, support_point. It is constant, and OnFloor() does not
+/// change.
+WalkState ViaSlope(HalfStep half_step, double HalfStep::*number);
 /// The same of a number of its shape.
-RestStateSlopes SlopesOfStates(const HalfStep& half_step, double HalfStepShape::*number);
+WalkState ViaSlope(HalfStep half_step, double HalfStepShape::*number);
 /// The slopes in W when its soles move, the support sole standing at X_WS.
 RestStateSlopes SlopesOfStates(const HalfStep& half_step, const Foothold& X_WS,
                                const SoleMove& support, const SoleMove& swing);
