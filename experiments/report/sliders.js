@@ -2,15 +2,12 @@
 import { element, table } from "./elements.js";
 import { rowsAt, sampled } from "./hand_walk.js";
 import { marginText } from "./least_margins.js";
+import { marginWords } from "./margin_families.js";
 import { save } from "./saving.js";
 import { SuperposedWalk, naturalBound, valueOf } from "./superposed_walk.js";
 
 const mostHalfSteps = 80; // of a walk that has sliders
 const longest = 2; // times the planned duration, and the planned height
-
-const words = {
-  zmp: "ZMP of the point mass", reach: "reach", joint: "joint", joint_speed: "joint speed", foot_speed: "foot speed",
-};
 
 const copyOf = (parameters) => Object.fromEntries(
   Object.entries(parameters).map(([family, values]) => [family, [...values]]));
@@ -143,7 +140,7 @@ export class Sliders {
       values.forEach((value, i) => { if (Number.isFinite(value) && (row < 0 || value < values[row])) row = i; });
       const least = row < 0 ? NaN : values[row];
       const missed = least < demanded[family];
-      return [words[family], element("span", { text: marginText(least, unit), className: missed ? "no" : "" }),
+      return [marginWords(family), element("span", { text: marginText(least, unit), className: missed ? "no" : "" }),
               marginText(demanded[family], unit), row < 0 ? "" : `${hand.times[row].toFixed(2)} s`,
               missed ? element("span", { className: "no", text: "✗ missed" }) : "kept at the samples"];
     });
