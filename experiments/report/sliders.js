@@ -85,8 +85,8 @@ export class Sliders {
     const details = element("details", {},
       element("summary", { text: `By hand: overlaps, durations and heights of ${walk.label}` }),
       element("p", { text: "Move a slider, and A is the walk by hand, B the one of the run. Its closed form is evaluated " +
-        "in this page every 0.02 s. Its margins are sampled, not certified: ZMP of the point mass, reach, joints, " +
-        "joint speeds and foot speeds. Clearances, the whole robot's ZMP, torques, friction and joint accelerations are not looked at. " +
+        "in this page every 0.02 s. Its margins are sampled, not certified: " +
+        `${sampled.map(([family]) => marginWords(family)).join(", ")}. Other families of margins are not looked at. ` +
         "Save both tables, and a proof of all of it is tried by: halfstep smooth RUN --given overlaps.csv --given half_steps.csv" }),
       element("p", { className: "buttons" },
         button("save overlaps.csv and half_steps.csv", () => this.save()),

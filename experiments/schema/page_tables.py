@@ -6,8 +6,8 @@ page_tables.py SCHEMA [PAGE…]     rewrites the pages (all of the project); exi
 page_tables.py --check SCHEMA …   writes nothing; exit status 1 when a page would change, too
 
 A table that follows a line <!-- schema: WHAT --> is one of:
-  parameters, margins    a row a family. Cells below `unit`, `valid`, `scale` and `demanded by
-                         default` are written here, those of other headers are the page's own
+  parameters, margins    a row a family. Cells below `unit`, `valid`, `scale`, `raised` and
+                         `demanded by default` are written here, others are the page's own
   keys of FILE           a row a key, all written here if the header is that of explain-config
                          --markdown; else the page's own words of every key, ` .b` after `a`: a.b
   columns of TABLE       the page's own words of every column; one row may be of several, `a, b` or
@@ -54,16 +54,22 @@ def rows_of_families(families):
             cells["valid"] = valid(family)
         else:
             cells["scale"] = number(family["scale"])
+            cells["raised"] = "yes" if family["raised"] else ""
             cells["demanded by default"] = number(family["demanded"]) + (
                 ", or `none`" if family["may_be_none"] else "")
     return rows
 
 
 def rewritten(rows, header, table):
-    """The table's rows, one for each of `rows`: own words stay with their family."""
+    """The table's rows, one for each of `rows`, and complaints: own words stay with their family,
+    and those of a new one are to be written."""
     own = {cells_of(row)[0].strip("`"): dict(zip(header, cells_of(row))) for row in table}
-    return [row_of([cells.get(head, own.get(name, {}).get(head, "")) for head in header])
-            for name, cells in rows.items()]
+    after, told = [], []
+    for name, cells in rows.items():
+        after.append(row_of([cells.get(head, own.get(name, {}).get(head, "")) for head in header]))
+        if not any(own.get(name, {}).get(head) for head in header if head not in cells):
+            told.append(f"`{name}` has no words")
+    return after, told
 
 
 def named(cell, all_names):
@@ -125,7 +131,7 @@ def brought_in_line(what, header, table, schema):
     keys = {name: [row["name"] for row in rows] for name, rows in schema["keys"].items()}
     kind, _, of = what.partition(" of ")
     if what in ("parameters", "margins"):
-        return rewritten(rows_of_families(schema[what]), header, table), []
+        return rewritten(rows_of_families(schema[what]), header, table)
     if kind == "keys" and of in keys:
         if header == KEY_HEADER:
             return [row["row"] for row in schema["keys"][of]], []

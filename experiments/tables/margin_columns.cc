@@ -10,11 +10,11 @@ namespace halfstep {
 namespace {
 
 // The last one only for robots that have the family.
-constexpr std::array kFamilies = {
-    MarginFamily::kZmp,       MarginFamily::kJoint,         MarginFamily::kJointSpeed,
-    MarginFamily::kFootSpeed, MarginFamily::kClearance,     MarginFamily::kSelfClearance,
-    MarginFamily::kZmpRobot,  MarginFamily::kTorque,        MarginFamily::kFriction,
-    MarginFamily::kJointAcceleration};
+constexpr std::array kFamilies = {MarginFamily::kZmp,        MarginFamily::kJoint,
+                                  MarginFamily::kJointSpeed, MarginFamily::kFootSpeed,
+                                  MarginFamily::kClearance,  MarginFamily::kSelfClearance,
+                                  MarginFamily::kZmpRobot,   MarginFamily::kTorque,
+                                  MarginFamily::kFriction,   MarginFamily::kJointAcceleration};
 
 }  // namespace
 
