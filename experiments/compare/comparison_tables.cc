@@ -34,12 +34,7 @@ std::optional<double> GapOf(const ComparedCase& one, double duration) {
 
 }  // namespace
 
-CsvFile ComparisonCsv(const Comparison& comparison) {
-  // A column only of runs that know a bound.
-  const bool with_bound = std::ranges::any_of(comparison.cases, [](const ComparedCase& one) {
-    return std::ranges::any_of(
-        one.methods, [](const ComparedMethod& m) { return m.record.gap_lipm.has_value(); });
-  });
+CsvColumns ComparisonColumns(bool with_bound) {
   CsvColumns columns = {
       {"scenario", kString, "", "name of the experiment"},
       {"objective", kString, "", "what the methods pursued"},
@@ -67,7 +62,15 @@ CsvFile ComparisonCsv(const Comparison& comparison) {
       {"run", kString, "", "run folder, as it was named; after ./ where it begins like a formula"},
   };
   if (with_bound) columns.push_back({"gap_lipm", kNumber, "1", "as in summary.csv"});
-  CsvWriter csv(columns);
+  return columns;
+}
+
+CsvFile ComparisonCsv(const Comparison& comparison) {
+  const bool with_bound = std::ranges::any_of(comparison.cases, [](const ComparedCase& one) {
+    return std::ranges::any_of(
+        one.methods, [](const ComparedMethod& m) { return m.record.gap_lipm.has_value(); });
+  });
+  CsvWriter csv(ComparisonColumns(with_bound));
   for (const ComparedCase& one : comparison.cases) {
     for (const ComparedMethod& method : one.methods) {
       const MethodRecord& record = method.record;

@@ -46,14 +46,7 @@ void AddScreen(const std::vector<KeyDescription>& keys, std::string* text) {
 
 void AddMarkdown(const std::vector<KeyDescription>& keys, std::string* text) {
   for (const KeyDescription& key : keys) {
-    const std::string range = key.choices.empty() || !key.listed_by.empty()
-                                  ? RangeText(key)
-                                  : "`" + Joined(key.choices) + "`";
-    const std::string otherwise = key.required            ? "**required**"
-                                  : key.otherwise.empty() ? InCode(key.default_text)
-                                                          : key.otherwise;
-    *text += "| `" + key.path + "` | " + TypeText(key) + " | " + otherwise + " | " +
-             Escaped(range) + " | " + Escaped(key.meaning) + " |\n";
+    *text += KeyRow(key) + "\n";
     AddMarkdown(key.keys, text);
   }
 }
@@ -115,6 +108,17 @@ std::string KeyScreen(const std::vector<KeyDescription>& keys) {
   std::string text;
   AddScreen(keys, &text);
   return text;
+}
+
+std::string KeyRow(const KeyDescription& key) {
+  const std::string range = key.choices.empty() || !key.listed_by.empty()
+                                ? RangeText(key)
+                                : "`" + Joined(key.choices) + "`";
+  const std::string otherwise = key.required            ? "**required**"
+                                : key.otherwise.empty() ? InCode(key.default_text)
+                                                        : key.otherwise;
+  return "| `" + key.path + "` | " + TypeText(key) + " | " + otherwise + " | " + Escaped(range) +
+         " | " + Escaped(key.meaning) + " |";
 }
 
 std::string KeyMarkdown(const std::vector<KeyDescription>& keys) {

@@ -139,9 +139,7 @@ CsvFile TimingsCsv(const Episode& episode, size_t from) {
 }
 
 CsvFile OverlapsOf(const WalkPlan& plan) {
-  CsvWriter csv(
-      {{"junction", kInteger, "", "from 1: between half-steps `junction` and `junction` + 1"},
-       ColumnOf(ParameterFamily::kOverlap)});
+  CsvWriter csv({OverlapsColumns().front(), ColumnOf(ParameterFamily::kOverlap)});
   for (size_t j = 0; j < plan.parameters.overlaps.size(); ++j) {
     csv.Cell(static_cast<long>(j) + 1).Cell(plan.parameters.overlaps[j]).EndRow();
   }

@@ -10,7 +10,7 @@ endfunction()
 foreach(folder wpg planner opt smoothing experiments)
   file(GLOB_RECURSE headers RELATIVE ${SOURCE} ${SOURCE}/${folder}/*.h)
   foreach(header ${headers})
-    if(NOT header MATCHES "^experiments/(examples|python|report/node_modules)/" AND
+    if(NOT header MATCHES "^experiments/(examples|python|schema|report/node_modules)/" AND
         NOT header STREQUAL "smoothing/methods/accepted_in_parts.h")  # no way around Propose()
       stage(${SOURCE}/${header} ${header})
     endif()

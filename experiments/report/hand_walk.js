@@ -11,7 +11,7 @@ const footAt = [5, 9];
 
 /** What is sampled; other families of a certificate are not looked at. */
 export const sampled = [
-  ["zmp", "zmp_margin_m", "m"], ["reach", "reach_margin_m", "m"], ["joint", "joint_margin_rad", "rad"],
+  ["zmp", "zmp_margin_m", "m"], ["reach", "reach_m", "m"], ["joint", "joint_margin_rad", "rad"],
   ["joint_speed", "joint_speed_margin_rad_s", "rad/s"], ["foot_speed", "foot_speed_margin_m_s", "m/s"],
 ];
 
@@ -52,7 +52,7 @@ export function rowsAt(walk, robot, limits, times) {
     const row = {
       t_s: t, half_step: walk.halfStepAt(t) + 1, com_x_m: x[0], com_y_m: x[1], com_z_m: comHeight,
       zmp_x_m: x[2], zmp_y_m: x[3], waist_x_m: waist[0], waist_y_m: waist[1], waist_z_m: height,
-      waist_yaw_rad: waist[2], joint_margin_rad: Infinity, reach_margin_m: Infinity,
+      waist_yaw_rad: waist[2], joint_margin_rad: Infinity, reach_m: Infinity,
       foot_speed_margin_m_s: Infinity, support: walk.supportAt(t),
     };
     const later = walk.stateAt(t + difference);
@@ -65,7 +65,7 @@ export function rowsAt(walk, robot, limits, times) {
       const leg = robot.legs[side];
       const [p, yaw] = fromWaist(waist, height, sole);
       const reach = reachMargin(leg, p, yaw);
-      if (Number.isFinite(reach)) row.reach_margin_m = Math.min(row.reach_margin_m, reach);
+      if (Number.isFinite(reach)) row.reach_m = Math.min(row.reach_m, reach);
       const q = legAngles(leg, p, yaw, angles[side] ?? leg.standing);
       angles[side] = q;
       leg.joints.forEach((joint, k) => {

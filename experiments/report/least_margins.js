@@ -1,5 +1,5 @@
 // The least margins of a walk: where each is, in time and between which bodies.
-import { marginColumns } from "./series.js";
+import { drawnFamilies } from "./margin_families.js";
 
 // Margins of a family are told in this unit.
 const told = { m: ["cm", 100], rad: ["°", 180 / Math.PI], "rad/s": ["rad/s", 1] };
@@ -25,9 +25,8 @@ function instantOfMessage(walk) {
 export function leastMargins(walk, families) {
   const { demanded } = walk.certificate;
   const least = [];
-  for (const [family, column, label] of marginColumns) {
+  for (const { name: family, column, label, unit, scale } of drawnFamilies(families)) {
     if ((demanded[family] ?? null) === null || walk.encoded[column] === undefined) continue;
-    const { unit, scale } = families.find(({ name }) => name === family);
     const values = walk.column(column);
     let row = -1;
     for (let i = 0; i < values.length; ++i) {

@@ -2,8 +2,6 @@
 import { leastMargins, marginText } from "./least_margins.js";
 import { element, table } from "./elements.js";
 
-const names = { zmp_robot: "ZMP of the whole robot", zmp: "ZMP of the point mass" };
-
 function footstepOf(half) {
   return half ? `footstep ${Math.ceil(half.half_step / 2)}, ${half.kind}` : "";
 }
@@ -17,7 +15,7 @@ export function leastTable(parent, walk, families, onGo) {
     const missed = least.slack < 0;
     return [
       go,
-      names[least.family] ?? least.family.replaceAll("_", " "),
+      least.label,
       element("span", { text: marginText(least.value, least.unit), className: missed ? "no" : "" }),
       marginText(least.demanded, least.unit),
       missed ? element("span", { className: "no", text: "✗ missed" }) : "kept",

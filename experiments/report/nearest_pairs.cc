@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "experiments/report/trajectory_states.h"
+#include "experiments/tables/margin_columns.h"
 #include "smoothing/margins/body_clearances.h"
 #include "wpg/files/number_text.h"
 #include "wpg/motion/posture.h"
@@ -94,10 +95,8 @@ json NearestPairsJson(const RobotModel& robot, const Scene& scene, const CsvTabl
   const std::vector<WalkState> states = StatesOf(trajectory);
   PairSearch search(robot, scene);
   json pairs = json::array();
-  for (const auto& [family, column] :
-       {std::pair(MarginFamily::kClearance, "clearance_m"),
-        std::pair(MarginFamily::kSelfClearance, "self_clearance_m")}) {
-    const std::optional<size_t> row = LeastRow(trajectory.Numbers(column));
+  for (const MarginFamily family : {MarginFamily::kClearance, MarginFamily::kSelfClearance}) {
+    const std::optional<size_t> row = LeastRow(trajectory.Numbers(*TrajectoryColumnOf(family)));
     if (!row) continue;
     const Posture posture = SolvePosture(robot, states[*row]);
     if (!posture.reachable) continue;

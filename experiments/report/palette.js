@@ -20,6 +20,9 @@ export const feet = [left, right];
 /** For things that have no order, one after the other. */
 export const sequence = [left, zmp, com, second, right, sky, "#000000"];
 
+/** Of families of margins, in their order. */
+export const margins = () => [right, zmp, com, sky, second, theme.ink, left, grey, olive, limit];
+
 /** The colour with an opacity from 0 to 1. */
 export function faded(colour, opacity) {
   return colour + Math.round(255 * opacity).toString(16).padStart(2, "0");

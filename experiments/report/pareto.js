@@ -1,25 +1,19 @@
 // Seconds against centimetres: the safest walks of a range of durations, from pareto.csv.
 import uPlot from "uplot";
 import { element, lineKey } from "./elements.js";
-import * as palette from "./palette.js";
+import { drawnFamilies } from "./margin_families.js";
 import { themedAxis } from "./plots.js";
 import { fileName, plotSvg, save } from "./saving.js";
 
 const height = 260; // [px]
 const cap = 0.2999; // [m] margins beyond are not told apart
 const centimetres = (value) => (typeof value === "number" && value < cap ? 100 * value : null);
-const curves = [
-  ["ZMP inside the polygon", "zmp_m", palette.zmp],
-  ["ZMP of the whole robot", "zmp_robot_m", palette.left],
-  ["obstacles", "clearance_m", null],
-  ["own bodies", "self_clearance_m", palette.second],
-];
 
-function plotOf(parent, walk) {
+function plotOf(parent, walk, families) {
   const rows = [...walk.pareto].sort((a, b) => a.duration_s - b.duration_s);
-  const shown = curves.filter(([, column]) => rows.some((row) => centimetres(row[column]) !== null));
-  const colourOf = (colour) => colour ?? palette.theme.ink;
-  const keys = shown.map(([label, , colour]) => [label, colourOf(colour)]);
+  const shown = drawnFamilies(families).filter(({ unit, key }) =>
+    unit === "m" && rows.some((row) => centimetres(row[key]) !== null));
+  const keys = shown.map(({ label, colour }) => [label, colour]);
   const body = element("div");
   const saver = element("button", { text: "SVG", className: "save", title: "save this plot as SVG" });
   const title = `Least margins [cm] over duration, ${walk.label}`;
@@ -36,10 +30,10 @@ function plotOf(parent, walk) {
       { ...axis, size: 30, label: "duration of the walk [s]" },
       { ...axis, size: 44, label: "least margin [cm]" },
     ],
-    series: [{}, ...shown.map(([, , colour]) => ({
-      stroke: colourOf(colour), width: 2, points: { show: true, size: 7 },
+    series: [{}, ...shown.map(({ colour }) => ({
+      stroke: colour, width: 2, points: { show: true, size: 7 },
     }))],
-  }, [rows.map((row) => row.duration_s), ...shown.map(([, column]) => rows.map((row) => centimetres(row[column])))], body);
+  }, [rows.map((row) => row.duration_s), ...shown.map(({ key }) => rows.map((row) => centimetres(row[key])))], body);
   saver.addEventListener("click", () => save(
     new Blob([plotSvg(plot, title, keys, "duration of the walk [s]")], { type: "image/svg+xml" }),
     fileName(title, "svg")));
@@ -47,13 +41,13 @@ function plotOf(parent, walk) {
 }
 
 /** A plot for each walk that has such points; the section is hidden when none has. */
-export function paretoPlots(parent, walks) {
+export function paretoPlots(parent, walks, families) {
   const shown = walks.filter((walk) => walk.pareto.length > 0);
   parent.hidden = shown.length === 0;
   parent.replaceChildren();
   if (parent.hidden) return;
   parent.append(element("h2", { text: "Seconds against centimetres" }));
-  for (const walk of shown) plotOf(parent, walk);
+  for (const walk of shown) plotOf(parent, walk, families);
   parent.append(element("p", { className: "small", text: "Each point is a walk of its own, certified; " +
     "margins beyond 30 cm are not drawn." }));
 }

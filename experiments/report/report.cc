@@ -16,6 +16,7 @@
 #include "experiments/tables/certificate_statement.h"
 #include "experiments/tables/csv_reader.h"
 #include "experiments/tables/json_file.h"
+#include "experiments/tables/margin_columns.h"
 #include "opt/solvers/ending.h"
 #include "smoothing/margins/demandable.h"
 #include "smoothing/margins/family_traits.h"
@@ -46,7 +47,11 @@ size_t IndexIn(json* list, json value) {
 }
 
 json FamilyJson(MarginFamily family) {
-  return {{"name", Name(family)}, {"unit", Unit(family)}, {"scale", Scale(family)}};
+  const FamilyTraits& traits = Traits(family);
+  json row = {
+      {"name", traits.name}, {"unit", traits.unit}, {"scale", traits.scale}, {"key", traits.key}};
+  if (const auto column = TrajectoryColumnOf(family)) row["column"] = *column;
+  return row;
 }
 
 // Those that every robot has.

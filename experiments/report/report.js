@@ -218,7 +218,7 @@ function chooseCase(index) {
   summaryTable(byId("summary"), current.walks, report.families, report.endings);
   if (cases.length > 1) byId("summary").append(...scenarioTable(cases));
   methodCharts(current, cases, report.profiles ?? []);
-  paretoPlots(byId("pareto"), current.walks);
+  paretoPlots(byId("pareto"), current.walks, report.families);
   guarantee(byId("guarantee"), report.statement, current.walks);
   byId("stage").hidden = byId("plots").hidden = byId("least").hidden = drawn.length === 0;
   const halfSteps = drawn[0]?.halfSteps.length;

@@ -1,4 +1,5 @@
 // Which curves each plot has. A curve: label, colour, value(walk, place) and how to write it.
+import { drawnFamilies } from "./margin_families.js";
 import * as palette from "./palette.js";
 
 const metres = (v) => `${v.toFixed(3)} m`;
@@ -44,34 +45,18 @@ function jointSpeeds(robot, limits) {
   };
 }
 
-/** Families of margins: name, column of trajectory.csv, short label, colour. */
-export const marginColumns = [
-  ["zmp", "zmp_margin_m", "ZMP", palette.zmp],
-  ["zmp_robot", "zmp_robot_margin_m", "robot", palette.left],
-  ["clearance", "clearance_m", "scene", "ink"],
-  ["self_clearance", "self_clearance_m", "self", palette.second],
-  ["joint", "joint_margin_rad", "joints", palette.com],
-  ["joint_speed", "joint_speed_margin_rad_s", "speeds", palette.sky],
-  ["foot_speed", "foot_speed_margin_m_s", "foot", palette.right],
-  ["torque", "torque_margin_n_m", "torque", palette.grey],
-  ["friction", "friction_margin", "friction", palette.olive],
-  ["joint_acceleration", "joint_acceleration_margin_rad_s2", "accelerations", palette.limit],
-];
-
 function margins(families, demanded) {
-  const unitOf = Object.fromEntries(families.map((family) => [family.name, family]));
-  const shown = marginColumns.filter(([name]) => (demanded[name] ?? null) !== null);
+  const shown = drawnFamilies(families).filter(({ name }) => (demanded[name] ?? null) !== null);
   return {
     title: "Slack",
-    hint: "(margin − demanded) / scale; " + shown.map(([name, , label]) =>
-      `${label}: 1 = ${unitOf[name].scale} ${unitOf[name].unit}`).join(", "),
+    hint: "(margin − demanded) / scale; " +
+      shown.map(({ label, scale, unit }) => `${label}: 1 = ${scale} ${unit}`).join(", "),
     level: { value: 0, colour: palette.limit },
     fixed: [-0.6, 6],
-    curves: shown.map(([name, column, label, colour]) => ({
+    curves: shown.map(({ name, column, label, colour, scale }) => ({
       label,
-      colour: colour === "ink" ? palette.theme.ink : colour,
-      value: (walk, at) =>
-        (walk.value(column, at) - (demanded[name] ?? 0)) / unitOf[name].scale,
+      colour,
+      value: (walk, at) => (walk.value(column, at) - demanded[name]) / scale,
     })),
     onlyFirst: true,
   };

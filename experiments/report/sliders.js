@@ -2,15 +2,12 @@
 import { element, table } from "./elements.js";
 import { rowsAt, sampled } from "./hand_walk.js";
 import { marginText } from "./least_margins.js";
+import { marginWords } from "./margin_families.js";
 import { save } from "./saving.js";
 import { SuperposedWalk, naturalBound, valueOf } from "./superposed_walk.js";
 
 const mostHalfSteps = 80; // of a walk that has sliders
 const longest = 2; // times the planned duration, and the planned height
-
-const words = {
-  zmp: "ZMP of the point mass", reach: "reach", joint: "joint", joint_speed: "joint speed", foot_speed: "foot speed",
-};
 
 const copyOf = (parameters) => Object.fromEntries(
   Object.entries(parameters).map(([family, values]) => [family, [...values]]));
@@ -88,8 +85,8 @@ export class Sliders {
     const details = element("details", {},
       element("summary", { text: `By hand: overlaps, durations and heights of ${walk.label}` }),
       element("p", { text: "Move a slider, and A is the walk by hand, B the one of the run. Its closed form is evaluated " +
-        "in this page every 0.02 s. Its margins are sampled, not certified: ZMP of the point mass, reach, joints, " +
-        "joint speeds and foot speeds. Clearances, the whole robot's ZMP, torques, friction and joint accelerations are not looked at. " +
+        "in this page every 0.02 s. Its margins are sampled, not certified: " +
+        `${sampled.map(([family]) => marginWords(family)).join(", ")}. Other families of margins are not looked at. ` +
         "Save both tables, and a proof of all of it is tried by: halfstep smooth RUN --given overlaps.csv --given half_steps.csv" }),
       element("p", { className: "buttons" },
         button("save overlaps.csv and half_steps.csv", () => this.save()),
@@ -143,7 +140,7 @@ export class Sliders {
       values.forEach((value, i) => { if (Number.isFinite(value) && (row < 0 || value < values[row])) row = i; });
       const least = row < 0 ? NaN : values[row];
       const missed = least < demanded[family];
-      return [words[family], element("span", { text: marginText(least, unit), className: missed ? "no" : "" }),
+      return [marginWords(family), element("span", { text: marginText(least, unit), className: missed ? "no" : "" }),
               marginText(demanded[family], unit), row < 0 ? "" : `${hand.times[row].toFixed(2)} s`,
               missed ? element("span", { className: "no", text: "✗ missed" }) : "kept at the samples"];
     });

@@ -1,5 +1,6 @@
 // The tables below the stage.
 import { element, table } from "./elements.js";
+import { marginWords } from "./margin_families.js";
 import { readable } from "./words.js";
 
 const seconds = (value) => value.toFixed(3);
@@ -12,7 +13,6 @@ function bar(fraction, className) {
   return element("span", { className: "meter" }, fill);
 }
 
-const family = (name) => name.replaceAll("_", " ");
 const verdict = (walk) =>
   walk.certified ? element("span", { className: "yes", text: "✓ proved" })
     : element("span", { className: "no", text: "✗ not proved" });
@@ -28,7 +28,7 @@ export function summaryTable(parent, walks, families, endings) {
     const above = Number.isFinite(s.gap_lipm) ? `${number(100 * s.gap_lipm, 3)} %` : "–";
     const last = compared
       ? [walk.gap === null || walk.gap === undefined ? "–" : `${number(100 * walk.gap, 3)} %`]
-      : [`${family(s.worst_margin_name)} ${number(s.worst_margin, 3)} ${unit[s.worst_margin_name] ?? ""}`,
+      : [`${marginWords(s.worst_margin_name)} ${number(s.worst_margin, 3)} ${unit[s.worst_margin_name] ?? ""}`,
          number(s.iterations), number(s.instants)];
     const status = { text: s.status, title: endings[s.status], className: s.own ? "" : "no" };
     return [walk.label, element("span", status), verdict(walk),
@@ -134,7 +134,7 @@ export function guarantee(parent, statement, walks) {
   const one = shown[0]?.certificate;
   const limits = { foot_speed: one?.limits.foot_speed_m_s, foot_yaw_rate: one?.limits.foot_yaw_rate_rad_s };
   const demanded = Object.entries(one?.demanded ?? {}).map(([name, value]) =>
-    `${family(name)} ≥ ${number(value)}` +
+    `${marginWords(name)} ≥ ${number(value)}` +
     (limits[name] ? ` (limit ${number(limits[name])})` : ""));
   const [promised, excepted] = statement.split(/(?=Not guaranteed:)/);
   parent.replaceChildren(

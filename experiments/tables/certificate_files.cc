@@ -43,10 +43,10 @@ std::string_view VerdictName(Verdict verdict) {
   return "";
 }
 
-CsvFile CertificateCsv(const MarginEvaluator& evaluator, const Certificate& rows) {
+CsvColumns CertificateColumns() {
   using enum CsvType;
   const std::string unit = "unit of the family";
-  CsvWriter csv({
+  return {
       {"begin_s", kNumber, "s", "begin of the interval"},
       {"end_s", kNumber, "s", "its end"},
       {"family", kString, "", "of margins"},
@@ -55,7 +55,11 @@ CsvFile CertificateCsv(const MarginEvaluator& evaluator, const Certificate& rows
       {"margin", kNumber, unit, "its value at the midpoint"},
       {"bound", kNumber, unit, "by how much at most it changes from there within the interval"},
       {"demanded", kNumber, unit, "margin - bound is at least this"},
-  });
+  };
+}
+
+CsvFile CertificateCsv(const MarginEvaluator& evaluator, const Certificate& rows) {
+  CsvWriter csv(CertificateColumns());
   for (const CertificateRow& row : rows) {
     csv.Cell(row.begin).Cell(row.end).Cell(Name(row.family)).Cell(row.count);
     csv.Cell(evaluator.Subject(row.margin)).Cell(row.margin.value).Cell(row.bound);

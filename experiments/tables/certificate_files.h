@@ -30,7 +30,9 @@ CertifiedWalk CertifyWalk(const CertifiedFeasibility& test, const HalfStepSequen
 /// "certified", "violated" or "undecided".
 std::string_view VerdictName(Verdict verdict);
 
-/// certificate.csv. Columns: experiments/README.md.
+/// Columns of certificate.csv: experiments/README.md.
+CsvColumns CertificateColumns();
+/// certificate.csv.
 CsvFile CertificateCsv(const MarginEvaluator& evaluator, const Certificate& rows);
 
 /// Text of certificate.json: verdict, the statement, what was demanded, counts of statements, what

@@ -104,17 +104,21 @@ CsvFile OverlapsCsv(const MarginEvaluator& evaluator, const MethodRun& run) {
   return csv.file();
 }
 
-CsvFile ParetoCsv(const MarginEvaluator& evaluator, const HalfStepSequence& sequence,
-                  const MethodRun& run) {
-  constexpr double kPeriod = 0.005;
+CsvColumns ParetoColumns(std::span<const MarginFamily> families) {
   CsvColumns columns = {{"duration_s", kNumber, "s", "of the walk"},
                         {"least_slack", kNumber, "1",
                          "proved for the families that `safest` raises, of their scales"}};
-  for (const MarginFamily family : evaluator.families()) {
+  for (const MarginFamily family : families) {
     columns.push_back({std::string(Traits(family).key), kNumber, std::string(Unit(family)),
                        "least margin of the family, sampled every 5 ms; inf: nowhere watched"});
   }
-  CsvWriter csv(columns);
+  return columns;
+}
+
+CsvFile ParetoCsv(const MarginEvaluator& evaluator, const HalfStepSequence& sequence,
+                  const MethodRun& run) {
+  constexpr double kPeriod = 0.005;
+  CsvWriter csv(ParetoColumns(evaluator.families()));
   MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
   for (const ParetoPoint& point : run.result.pareto) {
     csv.Cell(point.duration).Cell(point.least_slack);

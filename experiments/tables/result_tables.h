@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -38,6 +39,8 @@ CsvFile FootstepsCsv(const HalfStepSequence& sequence);
 CsvColumns OverlapsColumns();
 /// One row a junction.
 CsvFile OverlapsCsv(const MarginEvaluator& evaluator, const MethodRun& run);
+/// Columns of pareto.csv of a robot that has these families.
+CsvColumns ParetoColumns(std::span<const MarginFamily> families);
 /// One row a point of a Pareto curve: duration, proved least slack, and each family's least margin
 /// sampled every 5 ms (inf: it is nowhere watched).
 CsvFile ParetoCsv(const MarginEvaluator& evaluator, const HalfStepSequence& sequence,

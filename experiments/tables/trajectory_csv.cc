@@ -1,13 +1,12 @@
 #include <algorithm>
 #include <cmath>
-#include <span>
 #include <tuple>
 
 #include "experiments/tables/csv_writer.h"
+#include "experiments/tables/margin_columns.h"
 #include "experiments/tables/result_tables.h"
 #include "wpg/motion/posture.h"
 #include "wpg/nth.h"
-#include "wpg/robot/acceleration_limits.h"
 
 namespace halfstep {
 namespace {
@@ -15,27 +14,6 @@ namespace {
 using enum CsvType;
 constexpr CsvInterpolation kConstant = CsvInterpolation::kPiecewiseConstant;
 constexpr CsvInterpolation kLinear = CsvInterpolation::kLinear;
-
-using MarginColumn = std::pair<MarginFamily, const char*>;
-
-// In the order of the margin columns; the last one only for robots that have the family.
-constexpr std::array<MarginColumn, 10> kMarginColumns = {{
-    {MarginFamily::kZmp, "zmp_margin"},
-    {MarginFamily::kJoint, "joint_margin"},
-    {MarginFamily::kJointSpeed, "joint_speed_margin"},
-    {MarginFamily::kFootSpeed, "foot_speed_margin"},
-    {MarginFamily::kClearance, "clearance"},
-    {MarginFamily::kSelfClearance, "self_clearance"},
-    {MarginFamily::kZmpRobot, "zmp_robot_margin"},
-    {MarginFamily::kTorque, "torque_margin"},
-    {MarginFamily::kFriction, "friction_margin"},
-    {MarginFamily::kJointAcceleration, "joint_acceleration_margin"},
-}};
-
-std::span<const MarginColumn> MarginColumnsOf(const RobotModel& robot) {
-  const size_t all = kMarginColumns.size();
-  return std::span(kMarginColumns).first(StatesAccelerationLimits(robot) ? all : all - 1);
-}
 
 // Columns of a place on the floor's axes, "com" …, in W.
 void AddPlace(const std::string& name, const std::string& what, bool with_z, bool with_yaw,
@@ -59,7 +37,7 @@ void WriteRow(const MarginEvaluator& evaluator, const SuperposedWalk& walk, doub
   for (const MotionCell& cell : MotionRow(evaluator.robot(), walk, t)) {
     std::visit([csv](const auto& value) { csv->Cell(value); }, cell);
   }
-  for (const auto& [family, column] : MarginColumnsOf(evaluator.robot())) {
+  for (const MarginFamily family : FamiliesOfTrajectory(evaluator.robot())) {
     csv->Cell(Nth(margins, family).value);
   }
   csv->EndRow();
@@ -116,10 +94,8 @@ std::vector<MotionCell> MotionRow(const RobotModel& robot, const SuperposedWalk&
 
 CsvColumns TrajectoryColumns(const RobotModel& robot) {
   CsvColumns columns = MotionColumns(robot);
-  for (const auto& [family, column] : MarginColumnsOf(robot)) {
-    const FamilyTraits& traits = Traits(family);
-    const std::string ending(traits.key.substr(traits.name.size()));  // "_m"
-    columns.push_back({column + ending, kNumber, std::string(Unit(family)),
+  for (const MarginFamily family : FamiliesOfTrajectory(robot)) {
+    columns.push_back({*TrajectoryColumnOf(family), kNumber, std::string(Unit(family)),
                        "smallest margin of " + std::string(Name(family)) + " at this instant"});
   }
   return columns;

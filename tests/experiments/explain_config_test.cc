@@ -9,8 +9,8 @@
 
 #include "experiments/commands/commands.h"
 #include "experiments/config/data_folder.h"
+#include "experiments/config/experiment_config.h"
 #include "experiments/config/key_tables.h"
-#include "experiments/sweep/sweep_config.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/schema_check.h"
 #include "tests/temporary_folder.h"
@@ -57,15 +57,6 @@ bool SameValue(const YamlNode& a, const YamlNode& b) {
     if (!SameValue(a.items[i], b.items[i])) return false;
   }
   return true;
-}
-
-TEST(ExplainConfig, ReadmeHasItsTable) {
-  const std::string readme = ReadText(kSource / "experiments/README.md");
-  EXPECT_TRUE(readme.find(KeyMarkdown(ConfigKeys())) != std::string::npos)
-      << "put the output of `halfstep explain-config --markdown` into experiments/README.md";
-  EXPECT_TRUE(readme.find(KeyMarkdown(SweepKeys())) != std::string::npos)
-      << "put this into experiments/README.md:\n"
-      << KeyMarkdown(SweepKeys());
 }
 
 TEST(ExplainConfig, DefaultsAndKeysAreThoseOfAResolvedConfig) {

@@ -1,0 +1,15 @@
+// Families of margins, as `families` of a report has them.
+import * as palette from "./palette.js";
+
+const zmps = { zmp: "ZMP of the point mass", zmp_robot: "ZMP of the whole robot" };
+
+/** A family in words. */
+export const marginWords = (name) => zmps[name] ?? name.replaceAll("_", " ");
+
+/** Those with a column in trajectory.csv, each with its words and a colour. */
+export function drawnFamilies(families) {
+  const colours = palette.margins();
+  return families.filter(({ column }) => column !== undefined).map((family, i) => ({
+    ...family, label: marginWords(family.name), colour: colours[i % colours.length],
+  }));
+}
