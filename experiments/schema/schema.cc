@@ -42,7 +42,7 @@ std::vector<TableSchema> Tables() {
       {"run/half_steps", HalfStepsColumns(HalfStepsExtent::kFootsteps)},
       {"run/trajectory", TrajectoryColumns()},
       {"run/overlaps", OverlapsColumns()},
-      {"run/pareto", ParetoColumns(AllMarginFamilies())},
+      {"run/pareto", ParetoColumns(FamiliesWith({}))},
       {"run/iterates", IteratesCsv(MethodRun("")).columns},
       {"run/certificate", CertificateColumns()},
       {"run/summary", SummaryColumns(true)},
@@ -70,7 +70,7 @@ std::vector<KeyDescription> RobotKeys() {
 
 Schema MakeSchema() {
   const auto parameters = AllParameterFamilies();
-  const auto margins = AllMarginFamilies();
+  const auto margins = FamiliesWith({});
   return {.parameters = {parameters.begin(), parameters.end()},
           .margins = {margins.begin(), margins.end()},
           .tables = Tables(),
