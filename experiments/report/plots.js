@@ -55,7 +55,7 @@ class Plot {
   // A click hides a curve or shows it; with shift, or twice, it is shown alone, or all are again.
   key(name, colour) {
     const button = lineKey(colour, name, "button");
-    button.title = "hide or show; with shift: alone";
+    button.title = `${name}: hide or show; with shift: alone`;
     button.addEventListener("click", (event) => {
       const others = [...this.keys, ...this.groups].map((key) => key.name).filter((n) => n !== name);
       if (event.shiftKey) {

@@ -53,8 +53,8 @@ function margins(families, demanded) {
       shown.map(({ label, scale, unit }) => `${label}: 1 = ${scale} ${unit}`).join(", "),
     level: { value: 0, colour: palette.limit },
     fixed: [-0.6, 6],
-    curves: shown.map(({ name, column, label, colour, scale }) => ({
-      label,
+    curves: shown.map(({ name, column, short, colour, scale }) => ({
+      label: short,
       colour,
       value: (walk, at) => (walk.value(column, at) - demanded[name]) / scale,
     })),

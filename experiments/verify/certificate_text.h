@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace halfstep::verify {
@@ -29,7 +30,7 @@ enum Family : int {
   kJointAcceleration,
   kOwn  ///< what the program that made the run registered; its formula is not known here
 };
-constexpr int kNumFamilies = 16;  ///< how many families a certificate has
+constexpr int kNumFamilies = kOwn + 1;  ///< how many families a certificate has
 /// Their names in certificate.csv and certificate.json, and their units.
 constexpr std::array<const char*, kNumFamilies> kFamilyNames = {
     "floor",       "foot_speed",     "foot_yaw_rate",      "zmp",    "reach",   "joint",
@@ -39,6 +40,8 @@ constexpr std::array<const char*, kNumFamilies> kFamilyNames = {
 constexpr std::array<const char*, kNumFamilies> kUnits = {"m",     "m/s", "rad/s",  "m", "m", "rad",
                                                           "rad/s", "m",   "m",      "m", "m", "m",
                                                           "N m",   "1",   "rad/s²", "1"};
+static_assert(std::string_view(kFamilyNames.back()) == "own" && kUnits.back() != nullptr,
+              "a family lacks its name or its unit");
 
 /// What is demanded of a family of which nothing is demanded: `null` in certificate.json.
 inline constexpr double kNotDemanded = -std::numeric_limits<double>::infinity();

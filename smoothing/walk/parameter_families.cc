@@ -336,7 +336,8 @@ constexpr bool IsOneOfAKind(const Row& row) {
 constexpr bool IsComplete(const Row& row) {
   return !row.name.empty() && !row.column.empty() && !row.meaning.empty() && row.least < row.most &&
          row.range_of != nullptr && TellsItsNumber(row) &&
-         (row.always || row.bounds().size() > 0) &&
+         (row.of == kJunction) == (row.part == ParameterPart::kBegin) &&
+         (row.of_form || row.values != nullptr) && (row.always || row.bounds().size() > 0) &&
          (row.always || !row.key.empty() || row.chosen != nullptr) &&
          (row.always || row.key.empty() || !row.key_meaning.empty());
 }
