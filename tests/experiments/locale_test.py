@@ -67,7 +67,8 @@ def commands():
                 ["compare", "bar", "fig3", "--out", "compared"],
                 ["sweep", "sweep.yaml", "--jobs", "1", "--out", "swept"],
                 ["report", "bar", "--out", "bar.html"],
-                ["live", f"{ROOT}/experiments/episodes/live_bar.yaml", "--out", "episode"],
+                ["live", f"{ROOT}/experiments/episodes/live_bar.yaml", "--out", "episode",
+                 "--set", "swept_volumes.cell_m=0.05", "--set", "swept_volumes.displacement_m=0.05"],
                 ["verify", "episode"])
     for form in ("csv", "npz", "hrpsys", "joint_trajectory", "mjcf"):
         yield ["export", "bar", "--format", form, "--period", "0.05", "--out", f"bar-{form}"]

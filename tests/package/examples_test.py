@@ -10,6 +10,7 @@ import unittest
 
 FOLDER = pathlib.Path(sys.argv[1]).resolve()
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
+CACHE = str(FOLDER.parents[1] / "cache_of_tests")  # of swept volumes, as for the examples in Python
 
 
 def number(pattern, text):
@@ -20,7 +21,7 @@ class Examples(unittest.TestCase):
     def told_by(self, name, *arguments):
         with tempfile.TemporaryDirectory() as place:
             done = subprocess.run([FOLDER / name, *arguments], cwd=place, text=True,
-                                  env=os.environ | {"XDG_CACHE_HOME": place}, capture_output=True)
+                                  env=os.environ | {"XDG_CACHE_HOME": CACHE}, capture_output=True)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         return done.stdout
 

@@ -27,12 +27,12 @@ planner: {unimproved_nodes: 100, max_nodes: 2000}`;
 const whole = `
 swept_volumes: {cache: ${JSON.stringify(cache)}}
 planner: {unimproved_nodes: 200, max_nodes: 3000, workspace_m: [-0.5, -0.8, 3.5, 0.8]}`;
-const barTo = across ? [2.1, 0] : [2.1, 1.2];
+const [barTo, goalTo] = across ? [[2.1, 0], [2.8, 0]] : [[1.4, 1.2], [2, 0]];
 writeFileSync(join(place, "bar.yaml"), `name: bar
 obstacles:
   - name: bar
     box: {size_m: [0.03, 3.0, 0.03]}
-    pose: {xyz: [2.1, 2.6, 0.015]}
+    pose: {xyz: [${barTo[0]}, 2.6, 0.015]}
     motion: {speed_m_s: 0.3}
 `);
 writeFileSync(join(place, "small.yaml"), `name: small
@@ -193,16 +193,13 @@ async function testLive(browser, episode) {
   ] }] });
   await until(async () => (await browser.run(
     "return document.querySelector('[data-name=bar]').checkVisibility()")), "the bar to be in view");
-  // The goal goes on, and while the robot waits a bar comes into its way, as far ahead as a slow
-  // machine may let it walk before it is told to wait.
-  await drag(browser, "goal", [2.8, 0]);
+  // The goal goes on, and while the robot waits a bar comes into its way. It is told to wait at once, so
+  // that what a slow machine draws takes none of its walk.
+  await drag(browser, "goal", goalTo);
   const before = await until(() => walkWithOtherFootsteps(browser, 0), "a walk to the goal");
-  await browser.set("show-volumes", true);
-  await volumesAre(browser, /of [1-9]\d* half-steps? still to come, by cells of 2 cm/);
-  await until(() => isDrawn(browser, (picture) => pinkPart(picture) > 0.01), "the volumes to be drawn");
-  assert.deepEqual(await overflows(browser), []);
   await click(browser, "hold");
   await stateIs(browser, /paused/);
+  await browser.set("show-volumes", true);
   await volumesAre(browser, /of 0 half-steps/);
   assert.equal(await textOf(browser, "hold"), "Walk on");
   await drag(browser, "bar", barTo);
@@ -216,7 +213,9 @@ async function testLive(browser, episode) {
 
   await click(browser, "hold");
   await until(async () => !/paused/.test(await textOf(browser, "state")), "the robot to walk on");
-  await volumesAre(browser, /of [1-9]\d* half-steps?/);
+  await volumesAre(browser, /of [1-9]\d* half-steps? still to come, by cells of 2 cm/);
+  await until(() => isDrawn(browser, (picture) => pinkPart(picture) > 0.01), "the volumes to be drawn");
+  assert.deepEqual(await overflows(browser), []);
   await browser.set("show-volumes", false);
   await until(async () => !(await browser.run(
     "return document.getElementById('volumes-note').checkVisibility()")), "the volumes to be hidden");

@@ -42,7 +42,8 @@ function makeRun() {
   execFileSync(halfstep, [
     "run", join(source, "experiments/configs/fig3_two_half_steps.yaml"), "--out", "pareto", "--quiet",
     "--set", "smoothing.methods=[halfstep/sqp]", "--set", "smoothing.optimizer.program=pareto",
-    "--set", "smoothing.optimizer.durations=true",
+    "--set", "smoothing.optimizer.durations=true", "--set", "smoothing.optimizer.pareto_points=3",
+    "--set", "smoothing.optimizer.rounds=2",
   ], { cwd: place });
   execFileSync(halfstep, ["compare", "run", "--out", "comparison", "--quiet"], { cwd: place });
 }

@@ -123,23 +123,27 @@ TEST(MovingScenes, SlopesAlongEveryEarlierParameterAgreeWithDifferences) {
     slacks.At(drawn.walk, at, {}, true, &here);
     ASSERT_EQ(here.times.size(), 2 * static_cast<size_t>(at.half_step));
     for (const HomotopyParameter& parameter : AllParameters(e.sequence)) {
-      const auto slope = [&](double h, size_t row) {
-        double sides[2] = {0, 0};
+      // Of every row; not a number where rows come or go.
+      const auto slopes = [&](double h) {
+        std::vector<double> slopes(here.rows.size(), std::nan(""));
+        InstantSlacks sides[2];
         for (const int s : {0, 1}) {
           HomotopyParameters moved = drawn.parameters;
           parameter.in(moved) += s == 0 ? -h : h;
-          InstantSlacks there;
-          slacks.At(SuperposedWalk(e.sequence, moved), at, {}, false, &there);
-          if (there.rows.size() != here.rows.size()) return std::nan("");
-          sides[s] = there.rows[row].slack;
+          slacks.At(SuperposedWalk(e.sequence, moved), at, {}, false, &sides[s]);
+          if (sides[s].rows.size() != here.rows.size()) return slopes;
         }
-        return (sides[1] - sides[0]) / (2 * h);
+        for (size_t row = 0; row < slopes.size(); ++row) {
+          slopes[row] = (sides[1].rows[row].slack - sides[0].rows[row].slack) / (2 * h);
+        }
+        return slopes;
       };
+      const std::vector<double> coarses = slopes(1e-5), fines = slopes(2e-6);
       const bool listed = std::find(here.parameters.begin(), here.parameters.end(), parameter) !=
                           here.parameters.end();
       for (size_t row = 0; row < here.rows.size(); ++row) {
         if (here.rows[row].family != MarginFamily::kClearance) continue;
-        const double coarse = slope(1e-5, row), fine = slope(2e-6, row);
+        const double coarse = coarses[row], fine = fines[row];
         const double size = 1 + std::abs(fine);
         if (!(std::abs(coarse - fine) <= 1e-4 * size)) {
           ++kinks;

@@ -69,7 +69,7 @@ MethodOptions Few() {
   OptimizerOptions& optimizer = options.Edit(OptimizerGroup()).options;
   options.Edit(DichotomyGroup()).tolerance = optimizer.tolerance = 0.01;
   optimizer.program.parameters = {.heights = true, .durations = true};
-  optimizer.rounds = 4;
+  optimizer.rounds = 2;
   optimizer.instants = 12;
   optimizer.deadline = 1e4;
   options.Edit(HorizonGroup()).passes = 1;

@@ -20,13 +20,18 @@ void PrintTo(const Case& one, std::ostream* out) { *out << one.name; }
 
 std::vector<Case> Cases() {
   const std::string fig4 = "fig4_raw_sequence";
-  return {{"RowsEvery10ms", {.overrides = {"output.period_s=0.01"}}},
-          {"RowsEvery50ms", {.overrides = {"output.period_s=0.05"}}, false},
-          {"ZmpShiftsIn20ms",
-           {.config = fig4, .overrides = {"half_step.zmp_shift_s=0.02", "output.period_s=0.005"}}},
-          {"RowsAsTheZmpShifts", {.overrides = {"half_step.zmp_shift_s=0.02"}}},
-          {"ZmpShiftsIn46ms", {.config = fig4, .overrides = {"half_step.zmp_shift_s=0.046"}}},
-          {"LowRobot", {.config = fig4, .overrides = {}, .com_height = 0.577}}};
+  const std::string few =  // of its footsteps
+      "footsteps=[{foot: right, x_m: 0.0978, y_m: -0.1013, yaw_deg: 4.30}, "
+      "{foot: left, x_m: 0.1636, y_m: 0.1173, yaw_deg: 8.59}, "
+      "{foot: right, x_m: 0.2912, y_m: -0.0721, yaw_deg: 12.89}]";
+  return {
+      {"RowsEvery10ms", {.overrides = {"output.period_s=0.01"}}},
+      {"RowsEvery50ms", {.overrides = {"output.period_s=0.05"}}, false},
+      {"ZmpShiftsIn20ms",
+       {.config = fig4, .overrides = {few, "half_step.zmp_shift_s=0.02", "output.period_s=0.005"}}},
+      {"RowsAsTheZmpShifts", {.overrides = {"half_step.zmp_shift_s=0.02"}}},
+      {"ZmpShiftsIn46ms", {.config = fig4, .overrides = {few, "half_step.zmp_shift_s=0.046"}}},
+      {"LowRobot", {.config = fig4, .overrides = {few}, .com_height = 0.577}}};
 }
 
 class Periods : public testing::TestWithParam<Case> {};
