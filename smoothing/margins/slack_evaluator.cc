@@ -42,7 +42,8 @@ void SlackEvaluator::At(const SuperposedWalk& walk, const LocalTime& at,
     walk.Sensitivities(at, &sensitivities, wanted_);
     WalkState third = WalkState::Zero();
     if (!moving.empty()) third = walk.ThirdRanges(instant.t(), instant.t()).center;
-    for (const auto& [parameter, rate] : moving) {
+    for (const auto& [moves, rate] : moving) {
+      const HomotopyParameter& parameter = moves;  // clang 14 captures no binding
       if (wanted_ && !wanted_(parameter)) continue;
       auto found = std::find_if(sensitivities.begin(), sensitivities.end(),
                                 [&](const WalkSensitivity& s) { return s.parameter == parameter; });
