@@ -92,7 +92,7 @@ class PolynomialModel : public MotionModel {
     double begin_, end_;
   };
 
-  // z/θ² = z_c/(g·T²) for the second derivative in σ; θ stands for T: omega = 1.
+  // p = F − k·F_σσ, k = z_c/(g·T²). The θ of its UnitJet is T itself, so ω is 1.
   class Zmp final : public Com {
    public:
     Zmp(HalfStepKind kind, const HalfStepShape& shape, double duration, double per_acceleration)
