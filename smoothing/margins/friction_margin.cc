@@ -12,8 +12,7 @@ namespace {
 std::optional<FootFriction> FrictionAt(Instant* at) {
   const RobotDynamics* dynamics = at->dynamics();
   if (dynamics == nullptr) return std::nullopt;
-  return FootFriction::Of(*dynamics,
-                          SupportAt(at->walk(), at->at(), at->jet().value, at->robot().sole_size));
+  return FootFriction::Of(*dynamics, at->support());
 }
 
 std::optional<NotCovered> SceneWithoutFriction(const Scene& scene) {
