@@ -67,9 +67,8 @@ class FrictionMargin final : public SupportFamily {
     if (at->demanded(family()) == kNotDemanded) return;
     const auto friction = FrictionAt(at);
     if (!friction) return;
-    rows->AddOfPosture(at, place_.scene.friction - friction->needed(), [&](PostureGradient* of) {
-      *of = GradientOf(at, -friction->Gradient());
-    });
+    rows->AddOfPosture(at, place_.scene.friction - friction->needed(),
+                       [&](PostureGradient* of) { *of = GradientOf(at, -friction->Gradient()); });
   }
 
  protected:

@@ -8,8 +8,9 @@
 
 namespace halfstep {
 
-/// The columns of a band of variables at a point x: gradients along their parameters, and what these
-/// are with respect to x. They differ by overlaps alone, whose variables are fractions of a bound.
+/// The columns of a band of variables at a point x: gradients along their parameters, and what
+/// these are with respect to x. They differ by overlaps alone, whose variables are fractions of a
+/// bound.
 class BandColumns {
  public:
   /// `variables` and `band`, which is in ascending order, are borrowed; `at` is the point of the

@@ -81,7 +81,8 @@ class UnderWay {
     const ProfileJets by = tracks_.ProfilesByShape(number, tau_);
     for (const Track& track : tracks_.tracks()) {
       const ProfileJet& p = Nth(by, track.profile);
-      if (p.value == 0.0 && p.first == 0.0 && p.second == 0.0) continue;  // most do not depend on it
+      if (p.value == 0.0 && p.first == 0.0 && p.second == 0.0)
+        continue;  // most do not depend on it
       Add(track.quantity, p.value, p.first, p.second, track.change, jet);
     }
   }
