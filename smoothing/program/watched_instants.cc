@@ -1,9 +1,9 @@
 #include "smoothing/program/watched_instants.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "smoothing/program/soft_minimum.h"
+#include "wpg/elementary.h"
 #include "wpg/nth.h"
 
 namespace halfstep {
@@ -157,7 +157,7 @@ void WatchedInstants::EvaluateHalfStep(const SuperposedWalk& walk, const Eigen::
   const auto write = [&] {
     for (int row = 0; row < NumRowFamilies(); ++row) {
       SoftMinimum& minimum = Nth(minima, row);
-      *value++ = minimum.least - std::log(minimum.sum) / rho - reserves_.of(k, row);
+      *value++ = minimum.least - Log(minimum.sum) / rho - reserves_.of(k, row);
       for (Eigen::Index c = 0; nonzeros && c < width; ++c) {
         *nonzeros++ = minimum.gradient[c] / minimum.sum;
       }

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "smoothing/walk/superposed_walk.h"
+#include "wpg/geometry/rotation.h"
 #include "wpg/motion/rest_state_slopes.h"
 #include "wpg/nth.h"
 
@@ -139,7 +140,7 @@ void SuperposedWalk::Sensitivities(const LocalTime& at, std::vector<WalkSensitiv
     for (const auto& [step, yaw] : {std::pair{p.on.support, p.X_WS.yaw}, {p.on.swing, swing_yaw}}) {
       if (step < 0) continue;
       const double turned = Nth(parameters_.footstep_yaws, step);
-      const Eigen::Matrix2d planned = Eigen::Rotation2Dd(yaw - turned).toRotationMatrix();
+      const Eigen::Matrix2d planned = PlaneRotation(yaw - turned);
       for (const Family family : AllParameterFamilies()) {
         const ParameterFamilyTraits& traits = Traits(family);
         if (traits.part != ParameterPart::kFootstep || !sums.Wants({family, step})) continue;
