@@ -1,10 +1,10 @@
 #include "smoothing/program/watched_instants.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "smoothing/program/band_columns.h"
 #include "smoothing/program/soft_minimum.h"
+#include "wpg/elementary.h"
 #include "wpg/nth.h"
 
 namespace halfstep {
@@ -160,7 +160,7 @@ void WatchedInstants::EvaluateHalfStep(const SuperposedWalk& walk, const Eigen::
   const auto write = [&] {
     for (int row = 0; row < NumRowFamilies(); ++row) {
       SoftMinimum& minimum = Nth(minima, row);
-      *value++ = minimum.least - std::log(minimum.sum) / rho - reserves_.of(k, row);
+      *value++ = minimum.least - Log(minimum.sum) / rho - reserves_.of(k, row);
       if (nonzeros) {
         minimum.gradient /= minimum.sum;
         columns->Pull(minimum.gradient, nonzeros);

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "smoothing/walk/superposed_walk.h"
+#include "wpg/geometry/rotation.h"
 #include "wpg/motion/rest_state_slopes.h"
 #include "wpg/nth.h"
 
@@ -178,7 +179,7 @@ void SuperposedWalk::Sensitivities(const LocalTime& at, std::vector<WalkSensitiv
       for (const Family family : FamiliesOf<ParameterPart::kFootstep>()) {
         if (!sums.Wants({family, step})) continue;
         const double turned = Nth(parameters_.footstep_yaws, step);
-        const Eigen::Matrix2d planned = Eigen::Rotation2Dd(yaw - turned).toRotationMatrix();
+        const Eigen::Matrix2d planned = PlaneRotation(yaw - turned);
         const SoleMove move = MoveOfSole(Traits(family).move, planned), none = SoleMove::Zero();
         const bool is_support = step == p.on.support;
         AddOfStates(
