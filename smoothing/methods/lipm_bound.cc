@@ -9,6 +9,7 @@
 
 #include "smoothing/walk/superposed_walk.h"
 #include "wpg/check.h"
+#include "wpg/elementary.h"
 #include "wpg/files/plain_locale.h"
 #include "wpg/geometry/support_polygon.h"
 #include "wpg/motion/lipm.h"
@@ -53,7 +54,7 @@ std::vector<Flight> Flights(const WalkProblem& problem) {
     Flight flight{.from = Nth(soles, Index(swing)),
                   .to = (down.X_WS * down.half_step.X_SF).Planar(),
                   .stance = down.X_WS.Planar()};
-    const double way = std::hypot(flight.to.x - flight.from.x, flight.to.y - flight.from.y);
+    const double way = Hypot(flight.to.x - flight.from.x, flight.to.y - flight.from.y);
     const double path = way > 0.0 ? way + 2.0 * lift : 0.0;
     const double turn = std::abs(flight.to.yaw - flight.from.yaw);
     flight.least = std::max(AtLeast(path, speed), AtLeast(turn, rate));
@@ -80,16 +81,16 @@ double LeastShift(const Vector2d& x, const std::array<Pose2, 2>& both, const Fli
   double least = 0.0;
   for (int i = 0; i < kDirections; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / kDirections;
-    const Vector2d u(std::cos(angle), std::sin(angle));
+    const Vector2d u(Cos(angle), Sin(angle));
     const double one = Reach(flight.stance, size, inside, u);
     // The hull of both soles is shrunk as a whole, by less along some directions: not at all here.
     const double two = std::max(Reach(both[0], size, 0.0, u), Reach(both[1], size, 0.0, u));
     double later = two;
     for (const Pose2& sole : all) later = std::max(later, Reach(sole, size, 0.0, u));
     const double need = u.dot(x);
-    const double lost = two - one - (later - one) * std::exp(-omega * flight.least);
+    const double lost = two - one - (later - one) * Exp(-omega * flight.least);
     if (!(two > need) || lost <= two - need) continue;
-    least = std::max(least, std::log(lost / (two - need)) / omega);
+    least = std::max(least, Log(lost / (two - need)) / omega);
   }
   return least;
 }

@@ -7,6 +7,7 @@
 
 #include "smoothing/methods/dichotomy.h"
 #include "wpg/check.h"
+#include "wpg/elementary.h"
 #include "wpg/files/text.h"
 
 namespace halfstep {
@@ -119,7 +120,7 @@ SmoothingResult ParetoCurve(const WalkProblem& problem, const OptimizerOptions& 
   const double most = std::max(least, pareto.most_duration * planned);
   HomotopyParameters start = fastest.parameters;
   for (int i = 0; i < pareto.points && !solves.over(); ++i) {
-    const double duration = least * std::pow(most / least, i / (pareto.points - 1.0));
+    const double duration = least * Pow(most / least, i / (pareto.points - 1.0));
     // From the safer one of the walk before and the one at the dichotomy's duration.
     const bool from_same =
         own <= duration && !points.empty() && (i == 0 || -same.cost > points.back().least_slack);

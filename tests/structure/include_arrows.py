@@ -4,9 +4,9 @@
 
 A file of a top-level folder includes that folder and the ones below it: wpg below planner below
 smoothing below experiments; opt stands beside wpg and planner, below smoothing. wpg/elementary.h
-lies below all. No chain of
-includes leads from a folder (wpg/robot, smoothing/proof …) back to itself. A test includes what
-the folder under test may include; opt, which includes no sibling, is open to every test.
+lies below all. No chain of includes leads from a folder (wpg/robot, smoothing/proof …) back to
+itself. A test includes what the folder under test may include; opt, which includes no other
+sibling, is open to every test.
 Run: include_arrows.py [--picture]   (prints who includes whom, the bottom first)
 """
 import pathlib

@@ -14,8 +14,6 @@ NAMES = ("a?sinh?|a?cosh?|a?tanh?|atan2|sincos|exp|exp2|expm1|log|log2|log10|log
          "fma|erfc?|[lt]gamma")
 FORBIDDEN = re.compile(rf"\bstd::(?:{NAMES})\(|\bAngleAxis|\bRotation2D|\bEulerAngles|\beulerAngles")
 ALLOWED = {
-    "smoothing/methods/lipm_bound.cc": "reference/lipm: a bound that no walk depends on",
-    "smoothing/methods/pareto.cc": "the durations at which safest walks are sought",
     "experiments/verify/": "writes no files; the C library's functions there check ours",
 }
 
