@@ -24,6 +24,7 @@ try:
     import pandas  # noqa: F401, the notebooks need it
     from nbconvert.preprocessors import CellExecutionError, ExecutePreprocessor
     from jupyter_client.kernelspec import NoSuchKernel
+    from traitlets.config import Config
     import ipykernel  # noqa: F401
 except ImportError as error:
     print(f"Skipped: {error}. Debian: python3-nbconvert python3-ipykernel python3-pandas "
@@ -53,8 +54,12 @@ def figures_of(path):
     cells = [cell for cell in notebook.cells if cell.cell_type == "code"]
     if any(cell.outputs or cell.execution_count for cell in cells):
         raise Refused("committed with outputs: clear them")
+    # Sockets in a folder of ours: a port that is free when a kernel is told of it may be another
+    # program's when the kernel opens it.
+    config = Config({"KernelManager": {"transport": "ipc",
+                                       "ip": os.environ["JUPYTER_RUNTIME_DIR"] + "/kernel"}})
     try:
-        ExecutePreprocessor(timeout=120, kernel_name="python3").preprocess(
+        ExecutePreprocessor(timeout=120, kernel_name="python3", config=config).preprocess(
             notebook, {"metadata": {"path": str(path.parent)}})
     except CellExecutionError as error:
         raise Refused(f"a cell raises: {error}") from error
