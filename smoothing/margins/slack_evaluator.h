@@ -45,8 +45,8 @@ class SlackEvaluator {
           const std::vector<std::pair<HomotopyParameter, double>>& moving, bool gradient,
           InstantSlacks* out);
 
-  /// How many instants were evaluated.
-  long instants() const { return scratch_.instants; }
+  /// The instants that were evaluated.
+  const Work& work() const { return scratch_.work; }
 
  private:
   const MarginEvaluator& evaluator_;

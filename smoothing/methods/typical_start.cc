@@ -1,0 +1,117 @@
+#include "smoothing/methods/typical_start.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "wpg/nth.h"
+
+namespace halfstep {
+namespace {
+
+// HRP-2's lengths, with which the forms were measured [m].
+constexpr double kComHeight = 0.8, kStandingWidth = 0.21;
+
+constexpr double kLonger = 1.12;     // from one trial to the next
+constexpr double kTolerated = -0.3;  // of a row: the solver's first steps mend it
+
+constexpr std::array kForms = {
+    TypicalForm{"level", 0.72, 1.0, 0.85, 0.25, 0.055, 0.23, 0.0, 0.27, 0.095, 0.58, 0.02, 0.1},
+    TypicalForm{"high", 1.0, 1.0, 0.85, 0.4, 0.055, 0.23, 0.0, 0.27, 0.095, 0.58, 0.02, 0.1},
+};
+
+// The value of a form for a family, and whether the family has one.
+std::optional<double> ValueOf(const TypicalForm& form, ParameterFamily family,
+                              const RobotModel& robot) {
+  const double width = robot.standing_width / kStandingWidth;
+  switch (family) {
+    case ParameterFamily::kHeightScale:
+      return form.height_scale;
+    case ParameterFamily::kDuration:
+      return form.duration * std::sqrt(robot.com_height / kComHeight);
+    case ParameterFamily::kSupportPoint:
+      return form.support_point * width;
+    case ParameterFamily::kViaLateral:
+      return form.via_lateral * width;
+    case ParameterFamily::kViaAlong:
+      return form.via_along * robot.com_height / kComHeight;
+    case ParameterFamily::kFootRamp:
+      return form.foot_ramp;
+    case ParameterFamily::kFootDelay:
+      return form.foot_delay;
+    case ParameterFamily::kLiftShare:
+      return form.lift_share;
+    case ParameterFamily::kZmpShift:
+      return form.zmp_shift;
+    case ParameterFamily::kZmpBumpRamp:
+      return form.zmp_bump_ramp;
+    default:
+      return std::nullopt;
+  }
+}
+
+// The least row of each half-step at x.
+std::vector<double> LeastRows(const OverlapProgram& program, const Eigen::VectorXd& x) {
+  const WatchedInstants& watched = program.watched();
+  Eigen::VectorXd values;
+  watched.Evaluate(x, &values, nullptr);
+  std::vector<double> least(static_cast<size_t>(program.variables().sequence().size()), 1.0);
+  for (int row = 0; row < watched.rows(); ++row) {
+    double& of_half_step = Nth(least, watched.half_step_of(row));
+    of_half_step = std::min(of_half_step, values[row]);
+  }
+  return least;
+}
+
+}  // namespace
+
+std::span<const TypicalForm> TypicalForms() { return kForms; }
+
+const TypicalForm& FormOfStep(const HalfStepSequence&, int) { return kForms.front(); }
+
+HomotopyParameters TypicalStart(const OverlapProgram& program, const RobotModel& robot,
+                                const TypicalForm* form) {
+  const OverlapVariables& variables = program.variables();
+  const HalfStepSequence& sequence = variables.sequence();
+  const ParameterTable& table = variables.table();
+  HomotopyParameters start = table.Start();
+  for (int v = 0; v < variables.size(); ++v) {
+    const HomotopyParameter& parameter = variables.at(v);
+    const int half_step = Traits(parameter.family).half_steps(parameter.index).first;
+    const TypicalForm& own = form ? *form : FormOfStep(sequence, half_step / 2);
+    const std::optional<double> value = ValueOf(own, parameter.family, robot);
+    if (!value) continue;
+    const ParameterRow& row = table.row(parameter);
+    parameter.in(start) = std::clamp(*value, row.lower, row.upper);
+  }
+  const std::vector<double> planned = table.Start().durations;
+  const auto overlap = [&](HomotopyParameters* at) {
+    for (int i = 0; i < sequence.num_junctions(); ++i) {
+      if (!table.free({ParameterFamily::kOverlap, i})) continue;
+      const TypicalForm& own = form ? *form : FormOfStep(sequence, i / 2);
+      const bool up_down = KindOfJunction(i) == JunctionKind::kUpDown;
+      Nth(at->overlaps, i) = (up_down ? own.up_down : own.down_up) * NaturalOverlapBound(*at, i);
+    }
+  };
+  // Longer where the rows ask for it, until nothing asks or all are as planned.
+  for (bool longer = true; longer;) {
+    overlap(&start);
+    longer = false;
+    const std::vector<double> least = LeastRows(program, variables.ToVariables(start));
+    std::vector<bool> slow(least.size(), false);
+    for (size_t k = 0; k < least.size(); ++k) {
+      if (least[k] >= kTolerated) continue;
+      for (size_t i = k > 0 ? k - 1 : 0; i < std::min(least.size(), k + 2); ++i) slow[i] = true;
+    }
+    for (size_t k = 0; k < slow.size(); ++k) {
+      const HomotopyParameter T{ParameterFamily::kDuration, static_cast<int>(k)};
+      if (!slow[k] || variables.IndexOf(T) < 0 || start.durations[k] >= planned[k]) continue;
+      start.durations[k] = std::min(planned[k], kLonger * start.durations[k]);
+      longer = true;
+    }
+  }
+  return start;
+}
+
+}  // namespace halfstep
