@@ -61,7 +61,7 @@ class InteriorPoint {
       Advance(move, std::min(1.0, kFractionToBoundary * StepLimit(move)));
       mu_ = Complementarity(move, 0.0);
     }
-    return {d_.cwiseMax(p_.lower).cwiseMin(p_.upper), z_.matrix()};
+    return {d_.cwiseMax(p_.lower).cwiseMin(p_.upper), z_.matrix(), algebra_};
   }
 
  private:
@@ -82,6 +82,7 @@ class InteriorPoint {
     }
     Assemble(z_ / stiffness_, y_lower_ / to_lower_ + y_upper_ / to_upper_ + p_.hessian.sigma());
     factors_.factorize(K_);
+    algebra_ += factors_.matrixL().nestedExpression().nonZeros();
     if (factors_.info() != Eigen::Success) return false;
     if (p_.hessian.empty()) return true;
     KU_ = factors_.solve(p_.hessian.U());
@@ -211,6 +212,7 @@ class InteriorPoint {
   Array stiffness_;  // s + z u/(ν − z): Δz = … − z/stiffness · AΔd
   Eigen::SimplicialLDLT<SparseMatrix> factors_;
   SparseMatrix K_;
+  long algebra_ = 0;
   Eigen::MatrixXd KU_;
   Eigen::PartialPivLU<Eigen::MatrixXd> small_;
 };

@@ -26,6 +26,7 @@ struct ElasticSubproblem {
 struct ElasticStep {
   Eigen::VectorXd d;      ///< (n), within its bounds
   Eigen::VectorXd duals;  ///< of the rows (m), each in [0, ν_i]
+  long linear_algebra;    ///< non-zeros of the factors, summed over the iterations
 };
 
 /// Solves it by a primal-dual interior point method with Mehrotra's corrector; O(n + m) an

@@ -135,6 +135,7 @@ class Sqp {
     sub.c = choose * c;
     sub.penalty = choose * penalties_->OfRows();
     ElasticStep step = Solve(sub);
+    monitor_.CountAlgebra(step.linear_algebra);
     step.duals = choose.transpose() * step.duals;
     for (int v = 0; v < x_.size(); ++v) {
       if (Fixed(v)) step.d[v] = 0.0;
