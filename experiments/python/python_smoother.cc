@@ -58,7 +58,8 @@ class PythonSmoother : public Smoother {
 
   SmoothingResult Smooth(const WalkProblem& problem, const MethodOptions& options,
                          SmoothingMonitor& monitor) const override {
-    monitor.LimitTo(options.Get(OptimizerGroup()).options.deadline);
+    const OptimizerOptions limits = options.Get(OptimizerGroup()).options;
+    monitor.LimitTo(limits.effort, limits.deadline);
     if (!monitor.BeginFeasibly(problem, problem.Start())) return monitor.Refusal();
     const std::string failure = Call(problem, options, &monitor);
     if (monitor.stopped()) {

@@ -48,7 +48,7 @@ SmoothingResult BeginWithDichotomy(const WalkProblem& problem, double tolerance,
   return dichotomy;
 }
 
-// Solves one after the other; they share what is left of the deadline evenly, and what one does not
+// Solves one after the other; they share what is left of the effort evenly, and what one does not
 // need others have.
 class CurveSolves {
  public:
@@ -61,10 +61,10 @@ class CurveSolves {
     OptimizerOptions with = options_;
     with.program.kind = kind;
     with.duration_limit = limit;
-    with.start = start;
-    const double begun = monitor_.Seconds();
+    with.begin = start;
+    const double begun = monitor_.Seconds(), used = monitor_.work().effort();
     SmoothingMonitor within(monitor_.Part(done_ / count_, (done_ + 1) / count_));
-    within.LimitTo(std::max(0.0, Share()));
+    with.effort = std::max(0.0, Share());
     SmoothingResult result = OptimizeOverlaps(problem_, with, within);
     ++done_;
     if (opt::HasOwnResult(result.ending)) weakest_ = std::max(weakest_, result.ending);
@@ -72,6 +72,7 @@ class CurveSolves {
     monitor_.result().raw_infeasible += result.raw_infeasible;
     for (SmoothingIterate iterate : result.iterates) {
       iterate.wall += begun;
+      iterate.effort += used;
       monitor_.result().iterates.push_back(iterate);
     }
     if (kind == ProgramKind::kSafest && std::isfinite(result.cost)) {
@@ -86,7 +87,7 @@ class CurveSolves {
 
  private:
   double Share() const {
-    return (options_.deadline - monitor_.Seconds()) / std::max(1.0, count_ - done_);
+    return monitor_.EffortLeft() / std::max(1.0, count_ - done_);
   }
 
   const WalkProblem& problem_;
@@ -102,6 +103,7 @@ class CurveSolves {
 SmoothingResult ParetoCurve(const WalkProblem& problem, const OptimizerOptions& options,
                             const ParetoOptions& pareto, SmoothingMonitor& monitor) {
   HALFSTEP_CHECK(pareto.points >= 2 && pareto.most_duration > 0.0, "points = " << pareto.points);
+  monitor.LimitTo(options.effort, options.deadline);
   const double planned = DurationOf(problem.Start());
   const SmoothingResult dichotomy = BeginWithDichotomy(problem, options.tolerance, monitor);
   if (!dichotomy.feasible || monitor.stopped()) {

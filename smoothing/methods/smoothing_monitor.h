@@ -83,6 +83,9 @@ class SmoothingMonitor {
     if (options_.progress) options_.progress(done);
   }
 
+  /// Tells the caller which part of the effort is used.
+  void ShowEffort() const { Progress(std::min(1.0, work().effort() / options_.effort)); }
+
   /// To be handed to every check of the problem's test; it counts their work.
   MarginEvaluator::Scratch* scratch() { return &*scratch_; }
   /// Adds work that scratch() did not count.
