@@ -51,17 +51,11 @@ std::optional<double> ValueOf(const TypicalForm& form, ParameterFamily family,
   }
 }
 
-// The least row of each half-step at x.
-std::vector<double> LeastRows(const OverlapProgram& program, const Eigen::VectorXd& x) {
-  const WatchedInstants& watched = program.watched();
+// The program's rows at a point.
+Eigen::VectorXd RowsAt(const OverlapProgram& program, const HomotopyParameters& at) {
   Eigen::VectorXd values;
-  watched.Evaluate(x, &values, nullptr);
-  std::vector<double> least(static_cast<size_t>(program.variables().sequence().size()), 1.0);
-  for (int row = 0; row < watched.rows(); ++row) {
-    double& of_half_step = Nth(least, watched.half_step_of(row));
-    of_half_step = std::min(of_half_step, values[row]);
-  }
-  return least;
+  program.watched().Evaluate(program.variables().ToVariables(at), &values, nullptr);
+  return values;
 }
 
 }  // namespace
@@ -94,15 +88,23 @@ HomotopyParameters TypicalStart(const OverlapProgram& program, const RobotModel&
       Nth(at->overlaps, i) = (up_down ? own.up_down : own.down_up) * NaturalOverlapBound(*at, i);
     }
   };
-  // Longer where the rows ask for it, until nothing asks or all are as planned.
+  // Longer where the rows ask for it, until nothing asks or all are as planned; but not for rows
+  // that ask for something else.
+  HomotopyParameters slowest = start;
+  for (size_t k = 0; k < planned.size(); ++k) {
+    slowest.durations[k] = std::max(start.durations[k], planned[k]);
+  }
+  overlap(&slowest);
+  const Eigen::VectorXd at_slowest = RowsAt(program, slowest);
   for (bool longer = true; longer;) {
     overlap(&start);
     longer = false;
-    const std::vector<double> least = LeastRows(program, variables.ToVariables(start));
-    std::vector<bool> slow(least.size(), false);
-    for (size_t k = 0; k < least.size(); ++k) {
-      if (least[k] >= kTolerated) continue;
-      for (size_t i = k > 0 ? k - 1 : 0; i < std::min(least.size(), k + 2); ++i) slow[i] = true;
+    const Eigen::VectorXd rows = RowsAt(program, start);
+    std::vector<bool> slow(planned.size(), false);
+    for (int row = 0; row < rows.size(); ++row) {
+      if (rows[row] >= kTolerated || at_slowest[row] < kTolerated) continue;
+      const size_t k = static_cast<size_t>(program.watched().half_step_of(row));
+      for (size_t i = k > 0 ? k - 1 : 0; i < std::min(planned.size(), k + 2); ++i) slow[i] = true;
     }
     for (size_t k = 0; k < slow.size(); ++k) {
       const HomotopyParameter T{ParameterFamily::kDuration, static_cast<int>(k)};
