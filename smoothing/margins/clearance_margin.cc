@@ -77,16 +77,15 @@ class ClearanceMargin final : public MarginStatements {
       const auto nearest = clearances.NearestTo(b, posture, at->t(), far, &scratch);
       if (nearest.obstacle < 0) continue;
       const Separation& gap = nearest.separation;
-      const auto derivative = [&](size_t i) {
-        return gap.normal_W.dot(
-            PointTangent(place_.robot.bodies[b], posture, rows->tangents[i], gap.point_a_W));
+      const auto gradient = [&](PostureGradient* of) {
+        of->AddPoint(place_.robot.bodies[b], posture, gap.point_a_W, gap.normal_W);
       };
       // As time goes on the obstacle moves, and what is known of it changes.
       const Obstacle& obstacle = Nth(place_.scene.obstacles, nearest.obstacle);
       const Eigen::Vector3d velocity =
           obstacle.motion.VelocityAt(obstacle.X_WO, at->t(), gap.point_b_W);
       const double rate = -gap.normal_W.dot(velocity) - obstacle.motion.UncertaintyRateAt(at->t());
-      rows->Add(nearest.margin, derivative, rate);
+      rows->AddOfPosture(at, nearest.margin, gradient, rate);
     }
   }
 

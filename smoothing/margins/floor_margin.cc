@@ -36,7 +36,11 @@ class FloorMargin final : public SwingFootFamily<FloorMargin> {
   double Value(const Instant& at) const { return at.jet().value[Height(at)] - floor_; }
   void AddRow(Instant* at, SlackSink* rows) const {
     const int z = Height(*at);
-    rows->Add(Value(*at), [&](size_t i) { return rows->sensitivities[i].jet.value[z]; });
+    rows->Add(Value(*at), [z] {
+      WalkJet gradient;
+      gradient.value[z] = 1.0;
+      return gradient;
+    });
   }
   double Change(const MarginInterval& interval) const {
     return interval.motion.Change(Height(interval.mid));

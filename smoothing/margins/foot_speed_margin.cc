@@ -35,8 +35,10 @@ class FootSpeedMargin final : public SwingFootFamily<FootSpeedMargin> {
     const Eigen::Vector3d velocity = Velocity(at->jet(), *at);
     const double speed = velocity.norm();
     if (speed <= 1e-6) return;
-    rows->Add(*at->limits().foot_speed - speed, [&](size_t i) {
-      return -velocity.dot(Velocity(rows->sensitivities[i].jet, *at)) / speed;
+    rows->Add(*at->limits().foot_speed - speed, [&] {
+      WalkJet gradient;
+      gradient.first.segment<3>(FootIndex(at->swing())) = -velocity / speed;
+      return gradient;
     });
   }
   double Change(const MarginInterval& interval) const {

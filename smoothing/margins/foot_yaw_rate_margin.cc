@@ -37,9 +37,10 @@ class FootYawRateMargin final : public SwingFootFamily<FootYawRateMargin> {
     const int yaw = Yaw(*at);
     const double rate = at->jet().first[yaw];
     if (rate == 0.0) return;
-    rows->Add(Value(*at), [&](size_t i) {
-      const double change = rows->sensitivities[i].jet.first[yaw];
-      return rate < 0.0 ? change : -change;
+    rows->Add(Value(*at), [&] {
+      WalkJet gradient;
+      gradient.first[yaw] = rate < 0.0 ? 1.0 : -1.0;
+      return gradient;
     });
   }
   double Change(const MarginInterval& interval) const {

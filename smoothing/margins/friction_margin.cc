@@ -3,7 +3,6 @@
 
 #include "smoothing/margins/family_class.h"
 #include "smoothing/margins/support_family.h"
-#include "wpg/motion/dynamics_slope.h"
 #include "wpg/motion/foot_friction.h"
 
 namespace halfstep {
@@ -69,11 +68,8 @@ class FrictionMargin final : public SupportFamily {
     if (at->demanded(family()) == kNotDemanded) return;
     const auto friction = FrictionAt(at);
     if (!friction) return;
-    rows->Add(place_.scene.friction - friction->needed(), [&](size_t i) {
-      const PostureTangent& tangent = rows->tangents[i];
-      const DynamicsSlope slope(at->robot(), at->jet(), at->posture(), *at->dynamics(),
-                                {rows->sensitivities[i].jet, tangent.q, tangent.speeds});
-      return -friction->Slope(slope.contact());
+    rows->AddOfPosture(at, place_.scene.friction - friction->needed(), [&](PostureGradient* of) {
+      *of = GradientOf(at, -friction->Gradient());
     });
   }
 

@@ -55,8 +55,8 @@ class GroundMargin final : public WholeFamily {
       if (place_.heights.LowestPossible(b, posture) > rows->cutoff_margin()) continue;
       const RobotBody& body = Nth(place_.robot.bodies, b);
       const Eigen::Vector3d lowest = place_.heights.LowestPoint(b, posture);
-      rows->Add(lowest.z() - place_.heights.floor(), [&](size_t i) {
-        return PointTangent(body, posture, rows->tangents[i], lowest).z();
+      rows->AddOfPosture(at, lowest.z() - place_.heights.floor(), [&](PostureGradient* of) {
+        of->AddPoint(body, posture, lowest, Eigen::Vector3d::UnitZ());
       });
     }
   }

@@ -19,12 +19,12 @@ std::string StatesNoLimits(const RobotModel& robot) {
 }
 
 // ∂q̈/∂parameter along each parameter.
-std::vector<ByLegs> AccelerationSlopes(Instant* at, const SlackSink& rows) {
+std::vector<ByLegs> AccelerationSlopes(Instant* at, SlackSink* rows) {
   std::vector<ByLegs> slopes;
-  for (size_t i = 0; i < rows.sensitivities.size(); ++i) {
-    const PostureTangent& tangent = rows.tangents[i];
+  for (size_t i = 0; i < rows->sensitivities.size(); ++i) {
+    const PostureTangent& tangent = rows->Tangents(at)[i];
     const DynamicsSlope slope(at->robot(), at->jet(), at->posture(), *at->motion(),
-                              {rows.sensitivities[i].jet, tangent.q, tangent.speeds});
+                              {rows->sensitivities[i].jet, tangent.q, tangent.speeds});
     slopes.push_back({slope.accelerations(Side::kLeft), slope.accelerations(Side::kRight)});
   }
   return slopes;
@@ -76,10 +76,12 @@ class JointAccelerationMargin final : public JointSizeFamily<JointAccelerationMa
     return ByLegs{motion->accelerations(Side::kLeft), motion->accelerations(Side::kRight)};
   }
   static double Limit(const Instant&, const LegJoint& joint) { return joint.max_acceleration; }
-  static const ByLegs& Slopes(Instant* at, const SlackSink& rows, size_t i,
-                              std::vector<ByLegs>* made) {
-    if (made->empty()) *made = AccelerationSlopes(at, rows);
-    return (*made)[i];
+  static void AddSize(Instant* at, const JointValue& of, double margin, SlackSink* rows,
+                      std::vector<ByLegs>* made) {
+    rows->AddAlong(margin, [&](size_t i) {
+      if (made->empty()) *made = AccelerationSlopes(at, rows);
+      return -of.sign * (*made)[i][of.leg][of.joint];
+    });
   }
 
  protected:

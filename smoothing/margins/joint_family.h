@@ -44,12 +44,19 @@ class JointFamily : public WholeFamily {
   const MarginPlace& place_;
 };
 
+/// A joint of which something is limited, and the sign of that.
+struct JointValue {
+  size_t leg = 0;     ///< Index(Side)
+  int joint = 0;      ///< from the hip down
+  double sign = 1.0;  ///< ±1
+};
+
 /// Families that limit the size of something of each joint: limit − |value|; −∞ where nothing can
 /// be said of the legs. `Family` has
 ///   - `std::optional<ByLegs> ValuesAt(Instant*)`: none where nothing can be said;
 ///   - `double Limit(const Instant&, const LegJoint&)`: +∞ where there is none;
-///   - `const ByLegs& Slopes(Instant*, const SlackSink&, size_t i, std::vector<ByLegs>* made)`:
-///     ∂values/∂parameter i; `made` is for what it makes of all parameters when it is first asked.
+///   - `void AddSize(Instant*, const JointValue&, double margin, SlackSink*, std::vector<ByLegs>*)`,
+///     which adds the row of a joint; the last is for what it makes once for all joints.
 template <typename Family>
 class JointSizeFamily : public JointFamily {
  public:
@@ -67,9 +74,8 @@ class JointSizeFamily : public JointFamily {
     std::vector<ByLegs> made;
     ForEachJoint([&](size_t s, int j, const LegJoint& joint, int) {
       const double value = (*values)[s][j];
-      const double sign = value < 0.0 ? -1.0 : 1.0;
-      rows->Add(self().Limit(*at, joint) - std::abs(value),
-                [&](size_t i) { return -sign * self().Slopes(at, *rows, i, &made)[s][j]; });
+      const JointValue of{.leg = s, .joint = j, .sign = value < 0.0 ? -1.0 : 1.0};
+      self().AddSize(at, of, self().Limit(*at, joint) - std::abs(value), rows, &made);
     });
   }
 

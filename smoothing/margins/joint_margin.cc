@@ -49,8 +49,8 @@ class JointMargin final : public JointFamily {
     if (!at->regular()) return;
     ForEachJoint([&](size_t s, int j, const LegJoint& joint, int) {
       const double q = at->posture().ik[s].q[j];
-      rows->Add(q - joint.lower, [&](size_t i) { return rows->tangents[i].q[s][j]; });
-      rows->Add(joint.upper - q, [&](size_t i) { return -rows->tangents[i].q[s][j]; });
+      rows->AddOfPosture(at, q - joint.lower, [&](PostureGradient* of) { of->q[s][j] = 1.0; });
+      rows->AddOfPosture(at, joint.upper - q, [&](PostureGradient* of) { of->q[s][j] = -1.0; });
     });
   }
 

@@ -38,8 +38,11 @@ class JointSpeedMargin final : public JointSizeFamily<JointSpeedMargin> {
   static double Limit(const Instant& at, const LegJoint& joint) {
     return at.limits().joint_speed_scale * joint.max_speed;
   }
-  static const ByLegs& Slopes(Instant*, const SlackSink& rows, size_t i, std::vector<ByLegs>*) {
-    return rows.tangents[i].speeds;
+  static void AddSize(Instant* at, const JointValue& of, double margin, SlackSink* rows,
+                      std::vector<ByLegs>*) {
+    rows->AddOfPosture(at, margin, [&](PostureGradient* gradient) {
+      gradient->speeds[of.leg][of.joint] = -of.sign;
+    });
   }
 
  protected:

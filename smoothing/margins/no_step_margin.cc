@@ -58,7 +58,7 @@ class NoStepMargin final : public WholeFamily {
     for (const Side side : {Side::kLeft, Side::kRight}) {
       const Margin margin = OfSole(*at, side);
       if (std::isinf(margin.value)) continue;
-      rows->Add(margin.value, [&](size_t i) {
+      rows->AddAlong(margin.value, [&](size_t i) {
         const WalkState& x = at->jet().value;
         const WalkState move = kStep * rows->sensitivities[i].jet.value;
         return (place_.areas.NearestTo(FootPose(x + move, side)).distance -

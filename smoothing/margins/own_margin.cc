@@ -53,7 +53,7 @@ class OwnMargin final : public WholeFamily {
       const double value = own->Value(at) / own->scale();
       if (!(value <= rows->cutoff_margin()) || !std::isfinite(value)) continue;
       const std::vector<double> slopes = own->Slopes(at, rows->sensitivities);
-      rows->Add(value, [&](size_t i) { return slopes[i] / own->scale(); });
+      rows->AddAlong(value, [&](size_t i) { return slopes[i] / own->scale(); });
     }
   }
 

@@ -53,15 +53,15 @@ class ReachMargin final : public WholeFamily {
     if (!at->regular()) {
       // Out of reach, or stretched: how far is all that is known.
       const double reach = std::min(posture.ik[0].reach_margin, posture.ik[1].reach_margin);
-      rows->Add(std::min(reach, 0.0) - 1e-3, [](size_t) { return 0.0; });
+      rows->Add(std::min(reach, 0.0) - 1e-3, [] { return WalkJet(); });
       return;
     }
     for (size_t s = 0; s < 2; ++s) {
       const Leg& leg = at->robot().legs[s];
       if (!leg.closed_form()) {
         const double slope = LegLengthAt(leg, posture.ik[s].q[3]).slope;
-        rows->Add(posture.ik[s].reach_margin,
-                  [&](size_t i) { return -slope * rows->tangents[i].q[s][3]; });
+        rows->AddOfPosture(at, posture.ik[s].reach_margin,
+                           [&](PostureGradient* of) { of->q[s][3] = -slope; });
         continue;
       }
       const Eigen::Vector3d hip_to_ankle =
@@ -70,11 +70,11 @@ class ReachMargin final : public WholeFamily {
       const Eigen::Vector3d along = hip_to_ankle.normalized();
       const Eigen::Vector3d ankle_from_sole =
           hip_to_ankle + leg.hip_B - posture.frames[s].X_BLink[6].translation();
-      rows->Add(posture.ik[s].reach_margin, [&](size_t i) {
-        const PostureTangent& t = rows->tangents[i];
-        const double turn =
-            rows->sensitivities[i].jet.value[FootIndex(static_cast<Side>(s)) + 3] - t.waist_yaw;
-        return -along.dot(t.sole_B[s] + turn * Eigen::Vector3d::UnitZ().cross(ankle_from_sole));
+      rows->AddOfPosture(at, posture.ik[s].reach_margin, [&](PostureGradient* of) {
+        const double by_turn = -along.dot(Eigen::Vector3d::UnitZ().cross(ankle_from_sole));
+        of->sole_B[s] = -along;
+        of->jet.value[FootIndex(static_cast<Side>(s)) + 3] = by_turn;
+        of->waist_yaw = -by_turn;
       });
     }
   }

@@ -81,10 +81,9 @@ class SelfClearanceMargin final : public MarginStatements {
       const auto [a, b] = place_.robot.self_pairs[p];
       const RobotBody& first = Nth(place_.robot.bodies, a);
       const RobotBody& second = Nth(place_.robot.bodies, b);
-      rows->Add(gap.distance, [&](size_t i) {
-        const PostureTangent& tangent = rows->tangents[i];
-        return gap.normal_W.dot(PointTangent(first, posture, tangent, gap.point_a_W) -
-                                PointTangent(second, posture, tangent, gap.point_b_W));
+      rows->AddOfPosture(at, gap.distance, [&](PostureGradient* of) {
+        of->AddPoint(first, posture, gap.point_a_W, gap.normal_W);
+        of->AddPoint(second, posture, gap.point_b_W, -gap.normal_W);
       });
     }
   }

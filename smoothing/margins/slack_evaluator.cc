@@ -1,6 +1,5 @@
 #include "smoothing/margins/slack_evaluator.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace halfstep {
@@ -27,44 +26,20 @@ SlackEvaluator::SlackEvaluator(const MarginEvaluator& evaluator, double cutoff,
 }
 
 void SlackEvaluator::At(const SuperposedWalk& walk, const LocalTime& at,
-                        const std::vector<std::pair<HomotopyParameter, double>>& moving,
-                        bool gradient, InstantSlacks* out) {
+                        const ParameterRates& moving, bool gradient, InstantSlacks* out) {
   ++(gradient ? scratch_.work.derivatives : scratch_.work.instants);
   out->parameters.clear();
   out->times.clear();
   sink_.Clear();
   const MarginLimits& limits = evaluator_.limits();
   Instant instant(evaluator_.place(), limits, walk, at, &scratch_);
-  const bool regular = instant.regular();
   if (gradient) {
-    std::vector<WalkSensitivity>& sensitivities = sink_.sensitivities;
-    const WalkJet& jet = instant.jet();
-    walk.Sensitivities(at, &sensitivities, wanted_);
-    WalkState third = WalkState::Zero();
-    if (!moving.empty()) third = walk.ThirdRanges(instant.t(), instant.t()).center;
-    for (const auto& [moves, rate] : moving) {
-      const HomotopyParameter& parameter = moves;  // clang 14 captures no binding
-      if (wanted_ && !wanted_(parameter)) continue;
-      auto found = std::find_if(sensitivities.begin(), sensitivities.end(),
-                                [&](const WalkSensitivity& s) { return s.parameter == parameter; });
-      if (found == sensitivities.end()) {
-        sensitivities.push_back({parameter, {}});
-        found = sensitivities.end() - 1;
-      }
-      found->jet.value += rate * jet.first;
-      found->jet.first += rate * jet.second;
-      found->jet.second += rate * third;
-    }
+    walk.Sensitivities(at, &sink_.sensitivities, wanted_, moving);
     if (!evaluator_.scene().rests()) {
       walk.StartSensitivities(at.half_step, &out->times);
       out->times.insert(out->times.end(), moving.begin(), moving.end());
     }
-    for (const WalkSensitivity& s : sensitivities) {
-      out->parameters.push_back(s.parameter);
-      if (regular) {
-        sink_.tangents.push_back(Differentiate(evaluator_.robot(), jet, instant.posture(), s.jet));
-      }
-    }
+    for (const WalkSensitivity& s : sink_.sensitivities) out->parameters.push_back(s.parameter);
   }
   for (const MarginFamily family : evaluator_.families()) {
     sink_.Begin(family, limits.demanded_of(family));

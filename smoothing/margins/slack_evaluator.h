@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <functional>
-#include <utility>
 #include <vector>
 
 #include "smoothing/margins/margin_evaluator.h"
@@ -20,14 +19,15 @@ struct InstantSlacks {
   Eigen::MatrixXd gradient;  ///< ∂slack/∂parameter, obstacles held still (rows × parameters)
   /// ∂t/∂parameter of the instant's absolute time, for every parameter that moves it; empty where
   /// obstacles rest. A row's whole derivative is gradient + SlackRow::rate · ∂t/∂parameter.
-  std::vector<std::pair<HomotopyParameter, double>> times;
+  ParameterRates times;
 
   /// The whole derivative of a row along a parameter.
   double Slope(size_t row, const HomotopyParameter& parameter) const;
 };
 
-/// Evaluates slacks and their analytic derivatives: superposition → leg inverse kinematics →
-/// witness points. Use one for each thread.
+/// Evaluates slacks and their analytic derivatives: each statement's gradient is pulled back from its
+/// witness points through the leg inverse kinematics to the walk's quantities, and multiplied by how
+/// the superposition moves these along each parameter. Use one for each thread.
 class SlackEvaluator {
  public:
   /// `evaluator` is borrowed. Statements with slack above `cutoff` are left out. Derivatives are
@@ -41,9 +41,8 @@ class SlackEvaluator {
   /// parameters of all half-steps before it. Without `gradient` only the slacks are filled.
   /// When a leg does not reach or is stretched to the singularity, there is one negative row of
   /// `reach`, with derivatives 0, and there are no rows of joints, ground or clearances.
-  void At(const SuperposedWalk& walk, const LocalTime& at,
-          const std::vector<std::pair<HomotopyParameter, double>>& moving, bool gradient,
-          InstantSlacks* out);
+  void At(const SuperposedWalk& walk, const LocalTime& at, const ParameterRates& moving,
+          bool gradient, InstantSlacks* out);
 
   /// The instants that were evaluated.
   const Work& work() const { return scratch_.work; }

@@ -15,6 +15,25 @@ bool SlackSink::AddSlack(double margin, double rate) {
   return true;
 }
 
+void SlackSink::AddSlopes(const WalkJet& gradient) {
+  const bool of_first = !gradient.first.isZero(0.0), of_second = !gradient.second.isZero(0.0);
+  for (const WalkSensitivity& s : sensitivities) {
+    double slope = gradient.value.dot(s.jet.value);
+    if (of_first) slope += gradient.first.dot(s.jet.first);
+    if (of_second) slope += gradient.second.dot(s.jet.second);
+    gradient_.push_back(slope / scale_);
+  }
+}
+
+const std::vector<PostureTangent>& SlackSink::Tangents(Instant* at) {
+  if (tangents_.empty()) {
+    for (const WalkSensitivity& s : sensitivities) {
+      tangents_.push_back(Differentiate(at->robot(), at->jet(), at->posture(), s.jet));
+    }
+  }
+  return tangents_;
+}
+
 Eigen::MatrixXd SlackSink::Gradient() const {
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   return Eigen::Map<const RowMajor>(gradient_.data(), static_cast<Eigen::Index>(rows_.size()),

@@ -4,6 +4,8 @@
 #include <vector>
 
 #include "smoothing/margins/family_traits.h"
+#include "smoothing/margins/instant.h"
+#include "smoothing/walk/posture_gradient.h"
 #include "smoothing/walk/posture_tangent.h"
 #include "smoothing/walk/superposed_walk.h"
 
@@ -19,23 +21,22 @@ struct SlackRow {
 };
 
 /// Takes the statements of an instant that are nearer to their limits than a cutoff, with
-/// derivatives along homotopy parameters. Owned by a SlackEvaluator, which fills the tangents.
+/// derivatives along homotopy parameters. Owned by a SlackEvaluator, which fills the sensitivities.
 class SlackSink {
  public:
   /// Statements with slack above `cutoff` are left out.
   explicit SlackSink(double cutoff) : cutoff_(cutoff) {}
 
-  /// Derivatives along the parameters on which the instant depends: of the walk's quantities, and
-  /// of the posture (empty where joint speeds have no bound).
+  /// Derivatives of the walk's quantities along the parameters on which the instant depends; empty
+  /// where only slacks are wanted.
   std::vector<WalkSensitivity> sensitivities;
-  std::vector<PostureTangent> tangents;  ///< of the same parameters
   /// Whether footsteps are among the variables. If not, nothing is said of soles that stand.
   bool footsteps_move = false;
 
   /// Forgets the parameters, for another instant.
   void Clear() {
     sensitivities.clear();
-    tangents.clear();
+    tangents_.clear();
     rows_.clear();
     gradient_.clear();
   }
@@ -46,15 +47,36 @@ class SlackSink {
   /// The margin beyond which statements are left out [its unit].
   double cutoff_margin() const { return demanded_ + cutoff_ * scale_; }
 
-  /// Adds a statement unless it is beyond the cutoff; `derivative(i)` is ∂margin/∂parameter i with
-  /// obstacles held still, `rate` is ∂margin/∂t by what these do [its unit/s].
+  /// Adds a statement unless it is beyond the cutoff; `gradient()` is a WalkJet, the margin's
+  /// gradient with respect to the walk's quantities with obstacles held still, `rate` is ∂margin/∂t
+  /// by what these do [its unit/s].
+  template <typename Gradient>
+  void Add(double margin, const Gradient& gradient, double rate = 0.0) {
+    if (AddSlack(margin, rate) && !sensitivities.empty()) AddSlopes(gradient());
+  }
+  /// The same of a margin that is a function of the posture at a regular instant: `add(gradient)`
+  /// adds to a PostureGradient that is zero.
+  template <typename AddTo>
+  void AddOfPosture(Instant* at, double margin, const AddTo& add, double rate = 0.0) {
+    const auto gradient = [&] {
+      PostureGradient of_posture;
+      add(&of_posture);
+      return PulledBack(at->robot(), at->jet(), at->posture(), of_posture);
+    };
+    Add(margin, gradient, rate);
+  }
+  /// The same where a margin is differentiated along one parameter after the other: `derivative(i)`
+  /// is ∂margin/∂parameter i. Dearer by as many times as there are parameters.
   template <typename Derivative>
-  void Add(double margin, const Derivative& derivative, double rate = 0.0) {
-    if (!AddSlack(margin, rate)) return;
+  void AddAlong(double margin, const Derivative& derivative) {
+    if (!AddSlack(margin, 0.0)) return;
     for (size_t i = 0; i < sensitivities.size(); ++i) {
       gradient_.push_back(derivative(i) / scale_);
     }
   }
+  /// Derivatives of the posture along the parameters, made when first asked for. Precondition: the
+  /// instant is regular.
+  const std::vector<PostureTangent>& Tangents(Instant* at);
 
   const std::vector<SlackRow>& rows() const { return rows_; }  ///< added so far
   /// ∂slack/∂parameter (rows × parameters).
@@ -63,12 +85,15 @@ class SlackSink {
  private:
   // False: beyond the cutoff.
   bool AddSlack(double margin, double rate);
+  // Of the statement added last.
+  void AddSlopes(const WalkJet& gradient);
 
   double cutoff_;
   MarginFamily family_ = MarginFamily::kZmp;
   double demanded_ = 0.0, scale_ = 1.0;
   std::vector<SlackRow> rows_;
   std::vector<double> gradient_;  // row-major
+  std::vector<PostureTangent> tangents_;
 };
 
 }  // namespace halfstep

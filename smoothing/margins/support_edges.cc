@@ -10,31 +10,34 @@ SupportEdges::SupportEdges(const SuperposedWalk& walk, const LocalTime& at, cons
                            const Vector2d& sole_size)
     : polygon_(SupportAt(walk, at, x, sole_size)), x_(x), sole_size_(sole_size) {}
 
-Vector2d SupportEdges::MoveOf(const Vector2d& corner, const WalkState& dx) const {
+void SupportEdges::AddCorner(const Vector2d& corner, const Vector2d& weight,
+                             WalkState* gradient) const {
   // It is a corner of that sole which has one there.
   double nearest = std::numeric_limits<double>::infinity();
-  Vector2d move(0, 0);
+  Side of = Side::kLeft;
   for (const Side side : {Side::kLeft, Side::kRight}) {
-    const Pose2 X_WF = FootPose(x_, side);
-    const double distance =
-        (SoleCorners(X_WF, sole_size_).colwise() - corner).colwise().norm().minCoeff();
+    const double distance = (SoleCorners(FootPose(x_, side), sole_size_).colwise() - corner)
+                                .colwise()
+                                .norm()
+                                .minCoeff();
     if (!(distance < nearest)) continue;
     nearest = distance;
-    const Vector2d arm = corner - X_WF.position();
-    const int foot = FootIndex(side);
-    move = dx.segment<2>(foot) + dx[foot + 3] * Vector2d(-arm.y(), arm.x());
+    of = side;
   }
-  return move;
+  const Vector2d arm = corner - FootPose(x_, of).position();
+  const int foot = FootIndex(of);
+  gradient->segment<2>(foot) += weight;
+  (*gradient)[foot + 3] += weight.dot(Vector2d(-arm.y(), arm.x()));
 }
 
-double SupportEdges::Slope(int i, const Vector2d& inward, const Vector2d& p, const Vector2d& dp,
-                           const WalkSensitivity& along) const {
-  if (Traits(along.parameter.family).move == nullptr) return inward.dot(dp);  // soles rest
+WalkState SupportEdges::BySoles(int i, const Vector2d& inward, const Vector2d& p) const {
   const Vector2d a = polygon_.corner(i), b = polygon_.corner((i + 1) % polygon_.size());
   const Vector2d edge = b - a;
   const double share = edge.dot(p - a) / edge.squaredNorm();
-  const WalkState& dx = along.jet.value;
-  return inward.dot(dp - (1.0 - share) * MoveOf(a, dx) - share * MoveOf(b, dx));
+  WalkState gradient = WalkState::Zero();
+  AddCorner(a, -(1.0 - share) * inward, &gradient);
+  AddCorner(b, -share * inward, &gradient);
+  return gradient;
 }
 
 }  // namespace halfstep

@@ -29,14 +29,14 @@ class SupportEdges {
   double Inside(int i, const Eigen::Vector2d& inward, const Eigen::Vector2d& p) const {
     return inward.dot(p - polygon_.corner(i));
   }
-  /// The derivative of Inside when p moves by `dp` along a parameter, and the soles as its
-  /// sensitivity says.
-  double Slope(int i, const Eigen::Vector2d& inward, const Eigen::Vector2d& p,
-               const Eigen::Vector2d& dp, const WalkSensitivity& along) const;
+  /// The gradient of Inside with respect to where the soles are, p held still; with respect to p it
+  /// is `inward`.
+  WalkState BySoles(int i, const Eigen::Vector2d& inward, const Eigen::Vector2d& p) const;
 
  private:
-  // How a corner moves when soles do.
-  Eigen::Vector2d MoveOf(const Eigen::Vector2d& corner, const WalkState& dx) const;
+  // Adds the gradient of weight · corner.
+  void AddCorner(const Eigen::Vector2d& corner, const Eigen::Vector2d& weight,
+                 WalkState* gradient) const;
 
   SupportPolygon polygon_;
   WalkState x_;

@@ -34,14 +34,14 @@ ByLegs TorquesAt(const RobotDynamics& dynamics, const FootLoads& loads) {
 }
 
 // ∂torque/∂parameter, along each parameter.
-std::vector<ByLegs> TorqueSlopes(Instant* at, const FootLoads& loads, const SlackSink& rows) {
+std::vector<ByLegs> TorqueSlopes(Instant* at, const FootLoads& loads, SlackSink* rows) {
   const RobotDynamics& dynamics = *at->dynamics();
   const Vector6d& contact = dynamics.contact();
   std::vector<ByLegs> slopes;
-  for (size_t i = 0; i < rows.sensitivities.size(); ++i) {
-    const PostureTangent& tangent = rows.tangents[i];
+  for (size_t i = 0; i < rows->sensitivities.size(); ++i) {
+    const PostureTangent& tangent = rows->Tangents(at)[i];
     const DynamicsSlope slope(at->robot(), at->jet(), at->posture(), dynamics,
-                              {rows.sensitivities[i].jet, tangent.q, tangent.speeds});
+                              {rows->sensitivities[i].jet, tangent.q, tangent.speeds});
     const Eigen::Vector2d zmp = dynamics.ZmpSlope(slope.contact());
     ByLegs& of_legs = slopes.emplace_back();
     for (const Side side : {Side::kLeft, Side::kRight}) {
@@ -91,10 +91,12 @@ class TorqueMargin final : public JointSizeFamily<TorqueMargin> {
     return TorquesAt(*at->dynamics(), *loads);
   }
   static double Limit(const Instant&, const LegJoint& joint) { return joint.max_torque; }
-  static const ByLegs& Slopes(Instant* at, const SlackSink& rows, size_t i,
-                              std::vector<ByLegs>* made) {
-    if (made->empty()) *made = TorqueSlopes(at, *LoadsAt(at), rows);
-    return (*made)[i];
+  static void AddSize(Instant* at, const JointValue& of, double margin, SlackSink* rows,
+                      std::vector<ByLegs>* made) {
+    rows->AddAlong(margin, [&](size_t i) {
+      if (made->empty()) *made = TorqueSlopes(at, *LoadsAt(at), rows);
+      return -of.sign * (*made)[i][of.leg][of.joint];
+    });
   }
 
  protected:

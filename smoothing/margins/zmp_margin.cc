@@ -44,9 +44,11 @@ class ZmpMargin final : public SupportFamily {
     const SupportEdges edges(at->walk(), at->at(), x, at->robot().sole_size);
     const Eigen::Vector2d zmp = x.segment<2>(kZmpX);
     edges.ForEach([&](int i, const Eigen::Vector2d& inward) {
-      rows->Add(edges.Inside(i, inward, zmp), [&](size_t p) {
-        const WalkSensitivity& along = rows->sensitivities[p];
-        return edges.Slope(i, inward, zmp, along.jet.value.segment<2>(kZmpX), along);
+      rows->Add(edges.Inside(i, inward, zmp), [&] {
+        WalkJet gradient;
+        gradient.value = edges.BySoles(i, inward, zmp);
+        gradient.value.segment<2>(kZmpX) += inward;
+        return gradient;
       });
     });
   }

@@ -3,7 +3,6 @@
 #include "smoothing/margins/family_class.h"
 #include "smoothing/margins/support_edges.h"
 #include "smoothing/margins/support_family.h"
-#include "wpg/motion/zmp_slopes.h"
 
 namespace halfstep {
 namespace {
@@ -66,18 +65,11 @@ class ZmpRobotMargin final : public SupportFamily {
     if (at->demanded(family()) == kNotDemanded) return;
     const auto zmp = ZmpAt(at);
     if (!zmp) return;
-    std::vector<Eigen::Vector2d> slopes;  // along each parameter, made when a row needs them
     const SupportEdges edges = EdgesAt(*at);
     edges.ForEach([&](int i, const Eigen::Vector2d& inward) {
-      rows->Add(edges.Inside(i, inward, *zmp), [&](size_t p) {
-        if (slopes.empty()) {
-          const ZmpSlopes all(at->robot(), at->jet(), at->posture(), *at->dynamics());
-          for (size_t k = 0; k < rows->sensitivities.size(); ++k) {
-            const PostureTangent& tangent = rows->tangents[k];
-            slopes.push_back(all.Along({rows->sensitivities[k].jet, tangent.q, tangent.speeds}));
-          }
-        }
-        return edges.Slope(i, inward, *zmp, slopes[p], rows->sensitivities[p]);
+      rows->AddOfPosture(at, edges.Inside(i, inward, *zmp), [&](PostureGradient* of) {
+        *of = GradientOf(at, at->dynamics()->ZmpGradient(inward));
+        of->jet.value += edges.BySoles(i, inward, *zmp);
       });
     });
   }

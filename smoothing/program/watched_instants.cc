@@ -115,7 +115,7 @@ double WatchedInstants::StretchOf(const SuperposedWalk& walk, int half_step) {
 }
 
 LocalTime WatchedInstants::At(const SuperposedWalk& walk, int k, const Instant& instant,
-                              std::vector<std::pair<HomotopyParameter, double>>* moving) {
+                              ParameterRates* moving) {
   moving->clear();
   const double u = instant.fraction, T = walk.tracks(k).duration();
   if (instant.of == Instant::Of::kHalfStep) {
@@ -164,7 +164,7 @@ void WatchedInstants::EvaluateHalfStep(const SuperposedWalk& walk, const Eigen::
       minimum = nothing;
     }
   };
-  std::vector<std::pair<HomotopyParameter, double>> moving;
+  ParameterRates moving;
   InstantSlacks instant;
   std::optional<SuperposedWalk> branch;
   if (WatchesBranch(k)) branch = walk.StopBranch(k);
@@ -259,7 +259,7 @@ double WatchedInstants::LeastSlackOf(const SuperposedWalk& walk, int k,
                                      SlackEvaluator* slacks) const {
   double least = options_.cutoff;
   InstantSlacks instant;
-  std::vector<std::pair<HomotopyParameter, double>> moving;
+  ParameterRates moving;
   std::optional<SuperposedWalk> branch;
   if (WatchesBranch(k)) branch = walk.StopBranch(k);
   for (const Instant& where : Nth(instants_, k)) {

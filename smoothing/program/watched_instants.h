@@ -113,7 +113,7 @@ class WatchedInstants {
   };
   // (k, τ) of an instant, and dτ along the parameters that move it.
   static LocalTime At(const SuperposedWalk& walk, int half_step, const Instant& instant,
-                      std::vector<std::pair<HomotopyParameter, double>>* moving);
+                      ParameterRates* moving);
   static double StretchOf(const SuperposedWalk& walk, int half_step);  // its length [s]
   bool WatchesBranch(int half_step) const;
   bool Look(const SuperposedWalk& walk, const LocalTime& at, bool of_branch, Instant::Why why);

@@ -68,7 +68,7 @@ void WatchedInstants::FocusOn(const SuperposedWalk& walk, std::optional<int> bra
                     {.begin = begin, .period = period, .cutoff = far}, workers_, work_);
   const int last = static_cast<int>(samples.size()) - 1;
   const auto lowest = [&samples](int i) { return std::ranges::min(Nth(samples, i)); };
-  std::vector<std::pair<HomotopyParameter, double>> moving;
+  ParameterRates moving;
   const int from = branch.value_or(0), to = branch.value_or(walk.num_half_steps() - 1);
   for (int k = from; options_.row_per_instant && k <= to; ++k) {
     for (Instant& instant : Nth(instants_, k)) {

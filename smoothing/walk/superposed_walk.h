@@ -28,6 +28,9 @@ struct WalkSensitivity {
   WalkJet jet;                  ///< per unit of the parameter
 };
 
+/// Rates along some parameters, each once.
+using ParameterRates = std::vector<std::pair<HomotopyParameter, double>>;
+
 /// The walk of a sequence at a point of the homotopy: a pure function of time. Half-step i starts
 /// at t_0 = 0, t_{i+1} = t_i + T_i − Δ_i, and every quantity is superposed in W:
 ///
@@ -68,14 +71,14 @@ class SuperposedWalk {
 
   /// Derivatives at fixed (half-step, τ) with respect to every parameter on which the instant
   /// depends: the half-steps under way there, the junctions between them and the footsteps that
-  /// they stand on. Parameters for which `wanted` returns false are left out. Replaces `out`.
+  /// they stand on. Where τ itself moves with some parameters, `moving` has the rate dτ/dparameter
+  /// of each. Parameters for which `wanted` returns false are left out. Replaces `out`.
   void Sensitivities(const LocalTime& at, std::vector<WalkSensitivity>* out,
-                     const ParameterFilter& wanted = {}) const;
+                     const ParameterFilter& wanted = {}, const ParameterRates& moving = {}) const;
 
   /// Derivatives of start_of(half_step): −1 along every earlier overlap, +1 along every earlier
   /// duration. Replaces `out`.
-  void StartSensitivities(int half_step,
-                          std::vector<std::pair<HomotopyParameter, double>>* out) const;
+  void StartSensitivities(int half_step, ParameterRates* out) const;
 
   /// Bounds of the |second time derivative| of every quantity, for all t in the absolute times
   /// [begin, end] [s]: the bounds of all half-steps under way there, added up.

@@ -15,10 +15,13 @@ class Sums {
     out_.clear();
   }
   bool Wants(const HomotopyParameter& parameter) const { return !wanted_ || wanted_(parameter); }
-  // That along a parameter that is wanted; valid until the next is asked for.
-  WalkJet& Of(const HomotopyParameter& parameter) {
-    for (WalkSensitivity& s : out_) {
-      if (s.parameter == parameter) return s.jet;
+  // That along a parameter that is wanted; valid until the next is asked for. `met`: it may have
+  // been asked for before.
+  WalkJet& Of(const HomotopyParameter& parameter, bool met = true) {
+    if (met) {
+      for (WalkSensitivity& s : out_) {
+        if (s.parameter == parameter) return s.jet;
+      }
     }
     out_.push_back({parameter, {}});
     return out_.back().jet;
@@ -36,14 +39,18 @@ class UnderWay {
   UnderWay(const HalfStepTracks& tracks, double tau, bool first)
       : tracks_(tracks), tau_(tau), first_(first), profiles_(tracks.Profiles(tau)) {}
 
-  // Along what moves its local time by dtau and its duration by dT.
-  void AddOfTime(double dtau, double dT, WalkJet* jet) const {
+  // Along its local time.
+  void AddOfTime(WalkJet* jet) const {
     for (const Track& track : tracks_.tracks()) {
-      const int q = track.quantity;
       const ProfileJet& p = Nth(profiles_, track.profile);
-      jet->value[q] += (p.first * dtau + p.value_T * dT) * track.change;
-      jet->first[q] += (p.second * dtau + p.first_T * dT) * track.change;
-      jet->second[q] += (p.third * dtau + p.second_T * dT) * track.change;
+      Add(track.quantity, p.first, p.second, p.third, track.change, jet);
+    }
+  }
+  // Along its duration, at a fixed local time.
+  void AddOfDuration(WalkJet* jet) const {
+    for (const Track& track : tracks_.tracks()) {
+      const ProfileJet& p = Nth(profiles_, track.profile);
+      Add(track.quantity, p.value_T, p.first_T, p.second_T, track.change, jet);
     }
   }
   // Along what changes the states in which it begins and ends, in W.
@@ -51,22 +58,25 @@ class UnderWay {
     if (first_) jet->value += from;
     for (const Track& track : tracks_.tracks()) {
       const int q = track.quantity;
-      if (to[q] != from[q]) Add(q, Nth(profiles_, track.profile), to[q] - from[q], jet);
+      if (to[q] == from[q]) continue;
+      const ProfileJet& p = Nth(profiles_, track.profile);
+      Add(q, p.value, p.first, p.second, to[q] - from[q], jet);
     }
   }
   // Along a number of its shape that changes the profiles.
   void AddOfProfiles(double HalfStepShape::*number, WalkJet* jet) const {
     const ProfileJets by = tracks_.ProfilesByShape(number, tau_);
     for (const Track& track : tracks_.tracks()) {
-      Add(track.quantity, Nth(by, track.profile), track.change, jet);
+      const ProfileJet& p = Nth(by, track.profile);
+      Add(track.quantity, p.value, p.first, p.second, track.change, jet);
     }
   }
 
  private:
-  static void Add(int q, const ProfileJet& p, double change, WalkJet* jet) {
-    jet->value[q] += p.value * change;
-    jet->first[q] += p.first * change;
-    jet->second[q] += p.second * change;
+  static void Add(int q, double value, double first, double second, double change, WalkJet* jet) {
+    jet->value[q] += value * change;
+    jet->first[q] += first * change;
+    jet->second[q] += second * change;
   }
 
   const HalfStepTracks& tracks_;
@@ -74,6 +84,12 @@ class UnderWay {
   bool first_;
   ProfileJets profiles_;
 };
+
+void AddTimes(double rate, const WalkJet& of, WalkJet* jet) {
+  jet->value += rate * of.value;
+  jet->first += rate * of.first;
+  jet->second += rate * of.second;
+}
 
 // Along what changes the states of `half_step` at rest, on the floor and at the via point, in W.
 void AddOfStates(const HalfStep& half_step, const RestStateSlopes& slopes,
@@ -103,24 +119,31 @@ SoleMove MoveOfSole(double Pose2::*number, const Eigen::Matrix2d& planned) {
 }  // namespace
 
 void SuperposedWalk::Sensitivities(const LocalTime& at, std::vector<WalkSensitivity>* out,
-                                   const ParameterFilter& wanted) const {
+                                   const ParameterFilter& wanted,
+                                   const ParameterRates& moving) const {
   using Family = HomotopyParameter::Family;
   Sums sums(wanted, out);
   const int k = at.half_step;
   const int first = FirstActive(at), last = LastActive(at);
+  WalkJet in_time;  // along τ
   for (int i = first; i <= last; ++i) {
     const Piece& p = piece(i);
     const UnderWay under_way(p.tracks, LocalTo(i, at), i == first);
-    const auto add_of_time = [&](const HomotopyParameter& parameter, double dtau, double dT) {
-      if (sums.Wants(parameter)) under_way.AddOfTime(dtau, dT, &sums.Of(parameter));
+    WalkJet in_own_time;  // along τ_i
+    under_way.AddOfTime(&in_own_time);
+    AddTimes(1.0, in_own_time, &in_time);
+    const auto add_of_time = [&](const HomotopyParameter& parameter, double rate) {
+      if (sums.Wants(parameter)) AddTimes(rate, in_own_time, &sums.Of(parameter));
     };
     // τ_i = τ + t_k − t_i, and every T_m − Δ_m between i and k moves it.
     const double sign = i < k ? 1.0 : -1.0;
     for (int m = std::min(i, k); m < std::max(i, k); ++m) {
-      add_of_time({Family::kOverlap, m}, -sign, 0.0);
-      add_of_time({Family::kDuration, m}, sign, 0.0);
+      add_of_time({Family::kOverlap, m}, -sign);
+      add_of_time({Family::kDuration, m}, sign);
     }
-    add_of_time({Family::kDuration, i}, 0.0, 1.0);
+    if (sums.Wants({Family::kDuration, i})) {
+      under_way.AddOfDuration(&sums.Of({Family::kDuration, i}));
+    }
 
     const Eigen::Matrix2d R_WS = p.X_WS.Planar().rotation();
     for (const Family family : AllParameterFamilies()) {
@@ -128,12 +151,12 @@ void SuperposedWalk::Sensitivities(const LocalTime& at, std::vector<WalkSensitiv
       const HomotopyParameter parameter{family, traits.index_at(i)};
       if (traits.part != ParameterPart::kState || !sums.Wants(parameter)) continue;
       AddOfStates(p.half_step, SlopesAlong(traits, p.half_step, p.planned, R_WS), under_way,
-                  &sums.Of(parameter));
+                  &sums.Of(parameter, /*met=*/i > first));
     }
     for (const Family family : AllParameterFamilies()) {
       const ParameterFamilyTraits& traits = Traits(family);
       if (traits.part != ParameterPart::kProfile || !sums.Wants({family, i})) continue;
-      under_way.AddOfProfiles(traits.shape, &sums.Of({family, i}));
+      under_way.AddOfProfiles(traits.shape, &sums.Of({family, i}, /*met=*/false));
     }
     const double swing_yaw = p.X_WS.yaw + p.half_step.X_SF.yaw;
     for (const auto& [step, yaw] : {std::pair{p.on.support, p.X_WS.yaw}, {p.on.swing, swing_yaw}}) {
@@ -152,10 +175,12 @@ void SuperposedWalk::Sensitivities(const LocalTime& at, std::vector<WalkSensitiv
       }
     }
   }
+  for (const auto& [parameter, rate] : moving) {
+    if (sums.Wants(parameter)) AddTimes(rate, in_time, &sums.Of(parameter));
+  }
 }
 
-void SuperposedWalk::StartSensitivities(
-    int half_step, std::vector<std::pair<HomotopyParameter, double>>* out) const {
+void SuperposedWalk::StartSensitivities(int half_step, ParameterRates* out) const {
   out->clear();
   for (int m = 0; m < half_step; ++m) {
     out->push_back({{ParameterFamily::kOverlap, m}, -1.0});

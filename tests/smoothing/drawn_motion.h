@@ -47,6 +47,12 @@ inline WalkJet Along(WalkJet jet, double h, const WalkJet& rates) {
   return jet;
 }
 
+/// What a number with this gradient changes by along a tangent.
+inline double Product(const WalkJet& gradient, const WalkJet& tangent) {
+  return gradient.value.dot(tangent.value) + gradient.first.dot(tangent.first) +
+         gradient.second.dot(tangent.second);
+}
+
 /// Calls visit(walk, begin, length, motion) of `each` intervals of 0.1 to 30 ms in each of `count`
 /// walks with extreme overlaps.
 template <typename Visit>

@@ -12,9 +12,9 @@
 #include "tests/smoothing/drawn_motion.h"
 #include "tests/smoothing/robot_truth.h"
 #include "tests/wpg/symmetric_masses.h"
+#include "wpg/motion/contact_gradient.h"
 #include "wpg/motion/leg_drift.h"
 #include "wpg/motion/zmp_drift.h"
-#include "wpg/motion/zmp_slopes.h"
 
 namespace halfstep {
 namespace {
@@ -95,7 +95,7 @@ TEST(RobotDynamics, MirroredAndMovedWalksHaveMirroredAndMovedZmps) {
   EXPECT_GT(compared, Draws(50) / 3);
 }
 
-TEST(ZmpSlopes, AgreeWithDifferences) {
+TEST(ContactGradient, OfTheZmpAgreesWithDifferences) {
   unsigned seed = 730;
   for (const WholeRobot& whole : WholeRobots()) {
     const RobotModel& robot = whole.model;
@@ -110,11 +110,18 @@ TEST(ZmpSlopes, AgreeWithDifferences) {
       if (!posture) continue;
       const RobotDynamics dynamics(robot, jet, *posture, kGravity);
       if (!dynamics.Zmp()) continue;
-      const ZmpSlopes slopes(robot, jet, *posture, dynamics);
       ++checked;
       const WalkJet along = DrawnRates(&draw);
       const PostureTangent tangent = Differentiate(robot, jet, *posture, along);
-      const Eigen::Vector2d slope = slopes.Along({along, tangent.q, tangent.speeds});
+      Eigen::Vector2d slope;
+      for (const Eigen::Index axis : {0, 1}) {
+        const ContactGradient by(robot, jet, *posture, dynamics,
+                                 dynamics.ZmpGradient(Eigen::Vector2d::Unit(axis)));
+        slope[axis] = Product(by.jet, along);
+        for (const size_t s : {0, 1}) {
+          slope[axis] += by.q[s].dot(tangent.q[s]) + by.speeds[s].dot(tangent.speeds[s]);
+        }
+      }
       const auto function = [&](const Eigen::VectorXd& h) -> Eigen::VectorXd {
         const auto zmp = ZmpOf(robot, Along(jet, h[0], along));
         return zmp ? *zmp : Eigen::Vector2d::Constant(std::nan(""));

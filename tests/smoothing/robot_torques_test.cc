@@ -11,11 +11,11 @@
 #include "tests/smoothing/drawn_motion.h"
 #include "tests/smoothing/robot_truth.h"
 #include "wpg/geometry/support_polygon.h"
+#include "wpg/motion/contact_gradient.h"
 #include "wpg/motion/foot_friction.h"
 #include "wpg/motion/foot_loads.h"
 #include "wpg/motion/leg_torques.h"
 #include "wpg/motion/torque_drift.h"
-#include "wpg/motion/zmp_slopes.h"
 
 namespace halfstep {
 namespace {
@@ -185,8 +185,15 @@ TEST(LegTorques, AndFrictionHaveTheSlopesOfDifferences) {
       const DynamicsTangent of{along, tangent.q, tangent.speeds};
       const DynamicsSlope slope(robot, jet, at.posture, *at.dynamics, of);
       const Eigen::Vector2d zmp = at.dynamics->ZmpSlope(slope.contact());
-      EXPECT_LT((zmp - ZmpSlopes(robot, jet, at.posture, *at.dynamics).Along(of)).norm(),
-                1e-10 * (1 + zmp.norm()));
+      // What is pulled back is the transpose of what is pushed forward.
+      const Eigen::Vector2d weights(0.6, -0.8);
+      const ContactGradient by(robot, jet, at.posture, *at.dynamics,
+                               at.dynamics->ZmpGradient(weights));
+      double pulled = Product(by.jet, along);
+      for (const size_t s : {0, 1}) {
+        pulled += by.q[s].dot(of.q[s]) + by.speeds[s].dot(of.speeds[s]);
+      }
+      EXPECT_NEAR(pulled, zmp.dot(weights), 1e-10 * (1 + zmp.norm()));
       Eigen::MatrixXd slopes(13, 1);
       const Vector6d& contact = at.dynamics->contact();
       for (const Side side : kSides) {

@@ -62,15 +62,19 @@ FootFriction::Reach FootFriction::ReachAlong(const Vector2d& direction) const {
   return least;
 }
 
-double FootFriction::Slope(const Vector6d& slope) const {
-  const Vector2d zmp_slope = dynamics_.ZmpSlope(slope), pull_slope = slope.segment<2>(3);
-  const double turn_slope = slope[2] - YawMoment(zmp_slope, pull_) -
-                            YawMoment(zmp_ - dynamics_.O().head<2>(), pull_slope);
+Vector6d FootFriction::Gradient() const {
   const double pull = pull_.norm(), distance = reach_.distance;
-  double sum_slope = (turn_ < 0.0 ? -1.0 : 1.0) * turn_slope / distance -
-                     std::abs(turn_) * reach_.normal.dot(zmp_slope) / (distance * distance);
-  if (pull > 0.0) sum_slope += pull_.dot(pull_slope) / pull;
-  return (sum_slope - needed() * slope[5]) / push_;
+  const double by_turn = (turn_ < 0.0 ? -1.0 : 1.0) / distance;
+  // turn_ = n_z − (p − O) × pull.
+  const Vector2d by_zmp = by_turn * Vector2d(-pull_.y(), pull_.x()) -
+                          std::abs(turn_) / (distance * distance) * reach_.normal;
+  const Vector2d arm = zmp_ - dynamics_.O().head<2>();
+  Vector6d gradient = dynamics_.ZmpGradient(by_zmp);
+  gradient[2] += by_turn;
+  gradient.segment<2>(3) += by_turn * Vector2d(arm.y(), -arm.x());
+  if (pull > 0.0) gradient.segment<2>(3) += pull_ / pull;
+  gradient[5] -= needed();
+  return gradient / push_;
 }
 
 // It may leave by an edge along u as well, and then nothing suffices.

@@ -26,7 +26,9 @@ class FootFriction {
   double needed() const { return (pull_.norm() + std::abs(turn_) / reach_.distance) / push_; }
   /// Its derivative when dynamics.contact() changes by `contact_slope`, about the same O, while the
   /// polygon rests.
-  double Slope(const Vector6d& contact_slope) const;
+  double Slope(const Vector6d& contact_slope) const { return Gradient().dot(contact_slope); }
+  /// Its gradient with respect to dynamics.contact(), while the polygon rests.
+  Vector6d Gradient() const;
   /// How much needed() grows at most over an interval; ∞: there is no bound.
   double Drift(const RobotDrift& robot, const ZmpDrift& zmp) const;
   /// The same from rates of what the floor gives: tighter by far where the interval is short.

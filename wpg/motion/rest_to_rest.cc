@@ -152,12 +152,28 @@ UnitJet RestToRest::Piece::At(double sigma) const {
   return f;
 }
 
+UnitJet RestToRest::Piece::InTime(double sigma) const {
+  const double r = 1.0 / width;
+  const double x = (sigma - center) * r;
+  UnitJet f;
+  for (size_t k = coefficients.size(); k-- > 0;) {
+    f.sss = f.sss * x + 3.0 * f.ss;
+    f.ss = f.ss * x + 2.0 * f.s;
+    f.s = f.s * x + f.value;
+    f.value = f.value * x + coefficients[k].value;
+  }
+  f.s *= r;
+  f.ss *= r * r;
+  f.sss *= r * r * r;
+  return f;
+}
+
 // With x(σ; fraction) the pieces move: F is at x, so it moves like the time w = −(center' +
 // x·width').
 UnitJet RestToRest::Piece::ByShift(double sigma) const {
   const double r = 1.0 / width;
   const double x = (sigma - center) * r;
-  UnitJet f = At(sigma).Moved(-(center_shift + x * width_shift), -width_shift * r);
+  UnitJet f = InTime(sigma).Moved(-(center_shift + x * width_shift), -width_shift * r);
   double value = 0.0, s = 0.0, ss = 0.0;
   for (size_t k = coefficients.size(); k-- > 0;) {
     ss = ss * x + 2.0 * s;
@@ -193,9 +209,9 @@ UnitJet RestToRest::ByBumpRamp(const std::vector<Piece>& pieces, const std::vect
                                double sigma) const {
   if (sigma <= 0.0 || sigma >= 1.0) return {};
   if (sigma > 0.5) return ReflectedSlope(ByBumpRamp(pieces, by_ramp, 1.0 - sigma));
-  UnitJet f = PieceAt(by_ramp, sigma).At(sigma);
+  UnitJet f = PieceAt(by_ramp, sigma).InTime(sigma);
   if (sigma < first_) {
-    const UnitJet bump = PieceAt(pieces, sigma).At(sigma);
+    const UnitJet bump = PieceAt(pieces, sigma).InTime(sigma);
     f.value += bump_by_ramp_ * bump.value;
     f.s += bump_by_ramp_ * bump.s;
     f.ss += bump_by_ramp_ * bump.ss;

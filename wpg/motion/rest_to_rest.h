@@ -71,6 +71,7 @@ class RestToRest {
     std::vector<Coefficient> coefficients;
 
     UnitJet At(double sigma) const;
+    UnitJet InTime(double sigma) const;  // the same without derivatives with respect to θ
     UnitJet ByShift(double sigma) const;
   };
 

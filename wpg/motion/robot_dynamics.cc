@@ -102,4 +102,14 @@ Eigen::Vector2d RobotDynamics::ZmpSlope(const Vector6d& contact_slope) const {
   return (Eigen::Vector2d(-contact_slope[1], contact_slope[0]) - contact_slope[5] * from_O) / push;
 }
 
+Vector6d RobotDynamics::ZmpGradient(const Eigen::Vector2d& along) const {
+  const double push = contact_[5];
+  const Eigen::Vector2d from_O = Eigen::Vector2d(-contact_[1], contact_[0]) / push;
+  Vector6d gradient = Vector6d::Zero();
+  gradient[0] = along.y() / push;
+  gradient[1] = -along.x() / push;
+  gradient[5] = -along.dot(from_O) / push;
+  return gradient;
+}
+
 }  // namespace halfstep

@@ -46,6 +46,8 @@ class RobotDynamics {
   std::optional<Eigen::Vector2d> Zmp() const;
   /// The ZMP's derivative when contact() changes by `contact_slope`. Precondition: there is a ZMP.
   Eigen::Vector2d ZmpSlope(const Vector6d& contact_slope) const;
+  /// The gradient of `along` · ZMP with respect to contact(). Precondition: there is a ZMP.
+  Vector6d ZmpGradient(const Eigen::Vector2d& along) const;
 
  private:
   Eigen::Vector3d O_;

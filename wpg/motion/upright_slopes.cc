@@ -48,4 +48,44 @@ Vector6d SoleAccelerationSlope(Side side, const WalkJet& jet, const Posture& pos
       d.second.segment<3>(foot), d.first[foot + 3], d.second[foot + 3]);
 }
 
+void WaistGradient::AddTo(const RobotModel& robot, const WalkJet& jet, const Posture& posture,
+                          const RobotDynamics& dynamics, WalkJet* by) const {
+  const Vector3d z = Vector3d::UnitZ();
+  const double rate = jet.first[kWaistYaw], yaw2 = jet.second[kWaistYaw];
+  const double com_x = robot.com_x_B;
+  const Vector3d x_W = posture.X_WB.linear().col(0), y_W = posture.X_WB.linear().col(1);
+  const Vector3d w = posture.X_WB.translation() - dynamics.O(), w1 = posture.waist_velocity;
+  const Vector3d carried = z.cross(w);
+  const Vector3d by_d = displacement.tail<3>(), by_v = velocity.tail<3>(),
+                 by_a = acceleration.tail<3>();
+  // Of w and its derivatives.
+  const Vector3d by_w = by_d - (rate * by_v + yaw2 * by_a).cross(z);
+  const Vector3d by_w1 = by_v - rate * by_a.cross(z);
+  by->value.segment<2>(kComX) += by_w.head<2>();
+  by->first.segment<2>(kComX) += by_w1.head<2>();
+  by->second.segment<2>(kComX) += by_a.head<2>();
+  by->value[kWaistYaw] +=
+      displacement[2] - by_d.dot(carried) -
+      com_x * (y_W.dot(by_w) - rate * x_W.dot(by_w1) -
+               (yaw2 * x_W + rate * rate * y_W).dot(by_a));
+  by->first[kWaistYaw] += velocity[2] - by_v.dot(carried) - by_a.dot(z.cross(w1)) -
+                          com_x * (y_W.dot(by_w1) - 2.0 * rate * x_W.dot(by_a));
+  by->second[kWaistYaw] += acceleration[2] - by_a.dot(carried) - com_x * y_W.dot(by_a);
+}
+
+void AddSoleAcceleration(Side side, const WalkJet& jet, const Posture& posture,
+                         const RobotDynamics& dynamics, const Vector6d& by_sole, WalkJet* by) {
+  const Vector3d z = Vector3d::UnitZ();
+  const int foot = FootIndex(side);
+  const Vector3d p =
+      posture.X_WSole[static_cast<size_t>(Index(side))].translation() - dynamics.O();
+  const Vector3d v = jet.first.segment<3>(foot), by_a = by_sole.tail<3>();
+  const Vector3d turned = by_a.cross(z);
+  by->value.segment<3>(foot) -= jet.second[foot + 3] * turned;
+  by->first.segment<3>(foot) -= jet.first[foot + 3] * turned;
+  by->second.segment<3>(foot) += by_a;
+  by->first[foot + 3] -= by_a.dot(z.cross(v));
+  by->second[foot + 3] += by_sole[2] - by_a.dot(z.cross(p));
+}
+
 }  // namespace halfstep

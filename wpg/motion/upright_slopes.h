@@ -20,4 +20,18 @@ struct WaistSlope {
 Vector6d SoleAccelerationSlope(Side side, const WalkJet& jet, const Posture& posture,
                                const RobotDynamics& dynamics, const WalkJet& tangent);
 
+/// A number's gradient with respect to the parts of WaistSlope.
+struct WaistGradient {
+  Vector6d displacement, velocity, acceleration;  ///< per unit of each
+
+  /// Adds the number's gradient with respect to the walk's quantities: the transpose of WaistSlope.
+  void AddTo(const RobotModel& robot, const WalkJet& jet, const Posture& posture,
+             const RobotDynamics& dynamics, WalkJet* by_jet) const;
+};
+
+/// Adds the gradient with respect to the walk's quantities of a number whose gradient with respect
+/// to the sole's spatial acceleration is `by_sole`: the transpose of SoleAccelerationSlope.
+void AddSoleAcceleration(Side side, const WalkJet& jet, const Posture& posture,
+                         const RobotDynamics& dynamics, const Vector6d& by_sole, WalkJet* by_jet);
+
 }  // namespace halfstep
