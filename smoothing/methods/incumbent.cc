@@ -51,18 +51,35 @@ bool Incumbent::Replace(const HomotopyParameters& point, std::vector<Margin>* re
   return true;
 }
 
+namespace {
+
+// Half-steps of a step share numbers, so they stay together.
+void Hold(size_t first, size_t last, std::vector<double>* lambda) {
+  for (size_t i = first / 2 * 2; i < std::min(lambda->size(), last / 2 * 2 + 2); ++i) {
+    (*lambda)[i] = 0.0;
+  }
+}
+
+std::vector<double> AllBut(const std::vector<bool>& held, size_t n) {
+  std::vector<double> lambda(n, 1.0);
+  for (size_t i = 0; i < held.size(); ++i) {
+    if (held[i]) Hold(i, i, &lambda);
+  }
+  return lambda;
+}
+
+}  // namespace
+
+HomotopyParameters Incumbent::Beside(const HomotopyParameters& candidate,
+                                     const std::vector<bool>& held) const {
+  return Between(candidate, AllBut(held, candidate.durations.size()));
+}
+
 double Incumbent::Toward(const HomotopyParameters& candidate, int attempts,
                          const std::vector<bool>& held) {
   refusals_.clear();
   const size_t n = candidate.durations.size();
-  std::vector<double> lambda(n, 1.0);
-  // Half-steps of a step share numbers, so they stay together.
-  const auto hold = [&](size_t first, size_t last) {
-    for (size_t i = first / 2 * 2; i < std::min(n, last / 2 * 2 + 2); ++i) lambda[i] = 0.0;
-  };
-  for (size_t i = 0; i < held.size(); ++i) {
-    if (held[i]) hold(i, i);
-  }
+  std::vector<double> lambda = AllBut(held, n);
   std::vector<Margin> refusals;
   for (int attempt = 0; attempt < attempts; ++attempt) {
     if (Replace(Between(candidate, lambda), &refusals)) {
@@ -77,7 +94,7 @@ double Incumbent::Toward(const HomotopyParameters& candidate, int attempts,
     const std::vector<double> before = lambda;
     for (const Margin& refusal : refusals) {
       const size_t k = static_cast<size_t>(refusal.at.half_step);
-      hold(k > 0 ? k - 1 : 0, k + 1);
+      Hold(k > 0 ? k - 1 : 0, k + 1, &lambda);
     }
     if (lambda == before) break;  // what is refused does not move
   }

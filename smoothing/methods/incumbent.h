@@ -42,6 +42,10 @@ class Incumbent {
   double Toward(const HomotopyParameters& candidate, int attempts,
                 const std::vector<bool>& held = {});
 
+  /// The candidate, but steps with half-steps that are `held` as in the incumbent. Not proved.
+  HomotopyParameters Beside(const HomotopyParameters& candidate,
+                            const std::vector<bool>& held) const;
+
   /// The best point that was proved.
   const HomotopyParameters& parameters() const { return parameters_; }
   double cost() const { return cost_; }        ///< of that point

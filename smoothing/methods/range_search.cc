@@ -14,6 +14,8 @@ namespace {
 
 // Iterations of the solver in a repair.
 constexpr int kRepairIterations = 2;
+// A solver that moves no variable by more stands still.
+constexpr double kStill = 1e-6;
 
 ProgramOptions OfRange(const WalkWindow& range, const RangeOptions& options) {
   ProgramOptions own = options.program;
@@ -100,6 +102,7 @@ bool RangeSearch::From(const HomotopyParameters& start, double more, double effo
       return false;
     }
     const double before = path_.cost();
+    const Eigen::VectorXd from = x;
     if (!Solve(&x, repairs > 0)) return false;
     const bool tried = Try(x);
     AdaptRows(tried, path_.refusals(), &watched);
@@ -107,6 +110,11 @@ bool RangeSearch::From(const HomotopyParameters& start, double more, double effo
                         repairs < tuning.repairs;
     repairs = repair ? repairs + 1 : 0;
     if (!repair) pace.Note(end_cost_, before, path_.cost());
+    // Where the solver stands still at rows that are violated, steps begin again at the incumbent.
+    if (!Safest() && (x - from).lpNorm<Eigen::Infinity>() < kStill) {
+      x = program_.ToVariables(path_.Beside(program_.ToParameters(x), held_));
+      solution_.warm_start = nullptr;
+    }
     monitor_.ShowEffort();
   }
   end_.exhausted = end_.exhausted || pace.exhausted();
@@ -163,13 +171,14 @@ bool RangeSearch::Try(const Eigen::VectorXd& x) {
   const double level = Safest() ? std::max(0.0, x.tail(1)[0]) : 0.0;
   const std::vector<double> least =
       program_.watched().Focus(walk, options_.tuning.look_period, level);
-  std::vector<bool> held;
-  for (const double slack : least) held.push_back(slack < level + options_.tuning.promising);
-  const auto first = held.begin() + range_.proved_first, last = held.begin() + range_.proved_last + 1;
+  held_.clear();
+  for (const double slack : least) held_.push_back(slack < level + options_.tuning.promising);
+  const auto first = held_.begin() + range_.proved_first,
+             last = held_.begin() + range_.proved_last + 1;
   const bool some = Safest() ? std::find(first, last, true) == last
                              : std::find(first, last, false) != last;
   const bool tried = some && end_violation_ <= options_.tuning.hopeless;
-  const double lambda = tried ? path_.Toward(end, options_.tuning.attempts, held) : 0.0;
+  const double lambda = tried ? path_.Toward(end, options_.tuning.attempts, held_) : 0.0;
   SmoothingResult& result = monitor_.result();
   result.raw_end_feasible = tried && lambda == 1.0;
   if (!tried || !path_.refusals().empty()) ++result.raw_infeasible;

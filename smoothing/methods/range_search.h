@@ -70,6 +70,7 @@ class RangeSearch {
   Incumbent path_;
   opt::Solution solution_;  // of the last round
   double end_cost_ = 0.0, end_violation_ = 0.0;  // where it ended
+  std::vector<bool> held_;  // half-steps at whose last end samples are violated
   double until_ = 0.0;      // effort of the monitor
 };
 
