@@ -14,6 +14,8 @@ namespace {
 
 // Iterations of the solver in a repair.
 constexpr int kRepairIterations = 2;
+constexpr int kViolatedRounds = 4;
+constexpr double kDearer = 10.0;
 // A solver that moves no variable by more stands still.
 constexpr double kStill = 1e-6;
 
@@ -90,6 +92,8 @@ bool RangeSearch::From(const HomotopyParameters& start, double more, double effo
   WatchedInstants& watched = program_.watched();
   ResetRows(tuning, sharpness_, more, &watched);
   solution_ = {};
+  violated_ = 0;
+  dearer_ = 1.0;
   const OverlapVariables& variables = program_.variables();
   Eigen::VectorXd x = program_.ToVariables(start);
   x.head(variables.size()) = x.head(variables.size()).cwiseMax(variables.lower()).cwiseMin(
@@ -110,6 +114,13 @@ bool RangeSearch::From(const HomotopyParameters& start, double more, double effo
                         repairs < tuning.repairs;
     repairs = repair ? repairs + 1 : 0;
     if (!repair) pace.Note(end_cost_, before, path_.cost());
+    // Where ends stay violated, violations cost too little.
+    violated_ = end_violation_ > -tuning.promising ? violated_ + 1 : 0;
+    if (violated_ >= kViolatedRounds) {
+      violated_ = 0;
+      dearer_ *= kDearer;
+      solution_.warm_start = nullptr;
+    }
     // Where the solver stands still at rows that are violated, steps begin again at the incumbent.
     if (!Safest() && (x - from).lpNorm<Eigen::Infinity>() < kStill) {
       x = program_.ToVariables(path_.Beside(program_.ToParameters(x), held_));
@@ -134,6 +145,10 @@ bool RangeSearch::Solve(Eigen::VectorXd* x, bool repair) {
   options.optimality_tolerance = 1e-4;
   // Rows are nearly linear, and so is every cost but the roughness.
   if (options_.program.kind != ProgramKind::kSmooth) options.solver_options = traits.nearly_linear;
+  if (dearer_ > 1.0 && traits.many_rows) {
+    options.solver_options["penalty"] = std::to_string(2.0 * dearer_);
+    if (!repair) options.solver_options["radius"] = "0.05";
+  }
   if (repair) {
     options.solver_options["radius"] = std::to_string(options_.tuning.repair_region);
   } else {
