@@ -127,6 +127,7 @@ bool RangeSearch::From(const HomotopyParameters& start, double more, double effo
       solution_.warm_start = nullptr;
     }
     monitor_.ShowEffort();
+    if (options_.first_proof && tried && path_.refusals().empty()) break;
   }
   end_.exhausted = end_.exhausted || pace.exhausted();
   return true;

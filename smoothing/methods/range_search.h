@@ -21,6 +21,7 @@ struct RangeOptions {
   double duration_limit = 0.0;                ///< of `safest` [s]
   int iterations = 3;                         ///< of the solver in a round, at most
   int rounds = 40;                            ///< from a start, at most
+  bool first_proof = false;  ///< rounds end with the first end that is proved as it is
   SearchTuning tuning;
 };
 

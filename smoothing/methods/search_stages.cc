@@ -110,7 +110,7 @@ class Stages {
         const int first = std::max(0, begin), last = std::min(begin + stage.window, size()) - 1;
         if (last < first || !Any(moved, first - kBeside, last + kBeside)) continue;
         const double before = monitor_.cost();
-        const bool goes_on = SearchAt(first, last, options);
+        const bool goes_on = SearchAt(first, last, pass == 0, options);
         const double worth = options.tuning.gain * before * stage.window / size();
         if (before - monitor_.cost() > worth) {
           std::fill(moves.begin() + first, moves.begin() + last + 1, true);
@@ -125,7 +125,9 @@ class Stages {
     return true;
   }
 
-  bool SearchAt(int first, int last, const RangeOptions& options) {
+  bool SearchAt(int first, int last, bool first_pass, RangeOptions options) {
+    // What comes behind will be moved: the rest can wait.
+    options.first_proof = first_pass;
     const WalkWindow window = WindowOf(problem_, at_, first, last);
     const double before = monitor_.cost();
     RangeSearch search(

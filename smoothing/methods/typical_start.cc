@@ -14,7 +14,7 @@ namespace {
 constexpr double kComHeight = 0.8, kStandingWidth = 0.21;
 
 constexpr double kLonger = 1.12;     // from one trial to the next
-constexpr double kTolerated = -1.0;  // of a row: the solver's first steps mend it
+constexpr double kTolerated = -1e9;  // of a row: the solver's first steps mend it
 
 constexpr std::array kForms = {
     TypicalForm{"level", 0.72, 0.85, 1.0, 0.25, 0.055, 0.23, 0.0, 0.27, 0.095, 0.58, 0.02, 0.1},
