@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wpg/elementary.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/text.h"
 
@@ -144,10 +145,10 @@ double MeanWork(const Comparison& comparison, const MethodKey& key, size_t targe
     const ComparedMethod* method = Find(one, key);
     const bool solved = method != nullptr && method->reached[target];
     const double value = solved ? Of(*method->reached[target], by_wall) : kPenalty * *most;
-    sum += std::log(value + Of(kShift, by_wall));
+    sum += Log(value + Of(kShift, by_wall));
     ++count;
   }
-  return count == 0 ? std::nan("") : std::exp(sum / count) - Of(kShift, by_wall);
+  return count == 0 ? std::nan("") : Exp(sum / count) - Of(kShift, by_wall);
 }
 
 }  // namespace
@@ -225,10 +226,10 @@ std::vector<MethodMeans> Means(const Comparison& comparison) {
         continue;
       }
       if (method->record.certified) ++mean.certified;
-      if (method->record.solved()) logs += std::log(method->record.speedup);
+      if (method->record.solved()) logs += Log(method->record.speedup);
       for (size_t k = 0; k < kNumTargets; ++k) mean.solved[k] += method->reached[k] ? 1 : 0;
     }
-    mean.speedup = std::exp(logs / mean.cases);
+    mean.speedup = Exp(logs / mean.cases);
     for (size_t k = 0; k < kNumTargets; ++k) {
       mean.work[k] = {MeanWork(comparison, key, k, true), MeanWork(comparison, key, k, false)};
     }

@@ -12,6 +12,7 @@
 #include "experiments/config/folder_name.h"
 #include "experiments/config/scaled_defaults.h"
 #include "smoothing/margins/family_traits.h"
+#include "wpg/elementary.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/text.h"
 #include "wpg/robot/robot_measures.h"
@@ -87,8 +88,8 @@ void ComplainOutsideWorkspace(Fields& fields, const ExperimentConfig& c) {
   const std::vector<double>& w = c.planner.workspace;
   if (!c.has_goal || w.size() != 4) return;
   const StepGrid& grid = c.step_set;
-  const double step = std::hypot(std::max(std::abs(grid.x_min), std::abs(grid.x_max)),
-                                 std::max(std::abs(grid.y_min), std::abs(grid.y_max)));
+  const double step = Hypot(std::max(std::abs(grid.x_min), std::abs(grid.x_max)),
+                            std::max(std::abs(grid.y_min), std::abs(grid.y_max)));
   const GoalRegion goal = c.goal.Region();
   const double size = goal.box ? 0.5 * goal.box->norm() : goal.radius;
   const Eigen::AlignedBox2d workspace(Eigen::Vector2d(w[0], w[1]), Eigen::Vector2d(w[2], w[3]));

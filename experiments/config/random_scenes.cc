@@ -5,6 +5,7 @@
 
 #include "planner/search/plan_shortcut.h"
 #include "wpg/check.h"
+#include "wpg/elementary.h"
 #include "wpg/files/text.h"
 
 namespace halfstep {
@@ -39,8 +40,8 @@ std::string DrawFurniture(int i, std::mt19937_64& random) {
   do {
     x = Uniform(-2.0, 2.0, random);
     y = Uniform(-2.0, 2.0, random);
-  } while (std::hypot(std::fabs(x) - kCorner, std::fabs(y) - kCorner) < kRoom);
-  const double height = 0.02 * std::pow(50.0, Uniform(0.0, 1.0, random));
+  } while (Hypot(std::fabs(x) - kCorner, std::fabs(y) - kCorner) < kRoom);
+  const double height = 0.02 * Pow(50.0, Uniform(0.0, 1.0, random));
   if (i % 2 == 0) return CylinderYaml(i, x, y, Uniform(0.03, 0.15, random), height);
   const double length = Uniform(0.05, 0.4, random), width = Uniform(0.05, 0.4, random);
   return BoxYaml(i, x, y, length, width, height, Uniform(-90.0, 90.0, random));

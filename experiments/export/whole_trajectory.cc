@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "experiments/tables/csv_writer.h"
 #include "experiments/tables/result_tables.h"
+#include "wpg/elementary.h"
 #include "wpg/files/input_error.h"
 
 namespace halfstep {
@@ -61,10 +61,10 @@ void TurnYawIntoQuaternion(DeclaredTable* table) {
   replace(&table->columns, columns);
   replace(&table->table.header, names);
   // Yaws are not wrapped, so neither half of one jumps.
-  const double sign = !yaw.empty() && std::cos(0.5 * yaw.front()) < 0.0 ? -1.0 : 1.0;
+  const double sign = !yaw.empty() && Cos(0.5 * yaw.front()) < 0.0 ? -1.0 : 1.0;
   for (size_t row = 0; row < yaw.size(); ++row) {
-    const std::array<std::string, 4> cells = {NumberCell(sign * std::cos(0.5 * yaw[row])), "0.0",
-                                              "0.0", NumberCell(sign * std::sin(0.5 * yaw[row]))};
+    const std::array<std::string, 4> cells = {NumberCell(sign * Cos(0.5 * yaw[row])), "0.0", "0.0",
+                                              NumberCell(sign * Sin(0.5 * yaw[row]))};
     replace(&table->table.rows[row], cells);
   }
 }

@@ -8,6 +8,7 @@
 #include "experiments/live/episode_touch.h"
 #include "experiments/live/past_worlds.h"
 #include "experiments/live/spare_boxes.h"
+#include "wpg/elementary.h"
 #include "wpg/files/text.h"
 #include "wpg/nth.h"
 
@@ -21,7 +22,7 @@ constexpr double kLargestError = 0.5;      // that live.sensing.error_m may be [
 // To three digits, not less.
 std::string RoundedUp(double x) {
   if (!(x > 0.0)) return "0";
-  const double digit = std::pow(10.0, std::floor(std::log10(x)) - 2.0);
+  const double digit = Pow(10.0, std::floor(Log10(x)) - 2.0);
   return Formatted("%.3g", std::ceil(x / digit - kRoundingOfLooks) * digit);
 }
 

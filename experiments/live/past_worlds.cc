@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "wpg/geometry/rotation.h"
+
 namespace halfstep {
 namespace {
 
@@ -13,7 +15,7 @@ constexpr double kRoundingOfPlaces = 1e-9;  // [m]
 // The angle between two orientations [rad], 0 when they are equal to the bit.
 double TurnBetween(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
   if (a == b) return 0.0;
-  return std::abs(Eigen::AngleAxisd(b * a.transpose()).angle());
+  return AngleOf(b * a.transpose());
 }
 
 }  // namespace

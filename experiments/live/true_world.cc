@@ -5,6 +5,7 @@
 
 #include "wpg/files/input_error.h"
 #include "wpg/files/text.h"
+#include "wpg/geometry/rotation.h"
 
 namespace halfstep {
 namespace {
@@ -15,7 +16,7 @@ Eigen::Vector3d TargetOf(const ScriptEvent& event) {
 
 Eigen::Isometry3d Turned(const Eigen::Isometry3d& X_WO, const Eigen::Vector3d& to, double yaw) {
   Eigen::Isometry3d X = X_WO;
-  X.linear() = Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix() * X_WO.linear();
+  X.linear() = AxisRotation(yaw, Eigen::Vector3d::UnitZ()) * X_WO.linear();
   X.translation() = to;
   return X;
 }

@@ -7,6 +7,7 @@
 
 #include "experiments/tables/result_tables.h"
 #include "smoothing/margins/family_traits.h"
+#include "wpg/elementary.h"
 #include "wpg/nth.h"
 
 namespace py = pybind11;
@@ -70,8 +71,8 @@ void PutWithoutJoints(const RobotModel& robot, const SuperposedWalk& walk, doubl
   put(jet.value[kZmpX]);
   put(jet.value[kZmpY]);
   const double yaw = jet.value[kWaistYaw];
-  put(jet.value[kComX] - robot.com_x_B * std::cos(yaw));
-  put(jet.value[kComY] - robot.com_x_B * std::sin(yaw));
+  put(jet.value[kComX] - robot.com_x_B * Cos(yaw));
+  put(jet.value[kComY] - robot.com_x_B * Sin(yaw));
   put(robot.waist_height);
   put(yaw);
   for (int q = kLeftX; q < kNumQuantities; ++q) put(jet.value[q]);

@@ -5,6 +5,7 @@
 
 #include "experiments/replay/mujoco_geoms.h"
 #include "wpg/files/number_text.h"
+#include "wpg/geometry/rotation.h"
 #include "wpg/nth.h"
 
 namespace halfstep::replay {
@@ -140,7 +141,7 @@ class Writer {
                      Attribute("armature", ShortestText(options_.armature)) + "/>";
       } else if (joint.kind == UrdfJoint::Kind::kRevolute) {
         const double angle = Nth(tree_.posture, link.joint);
-        X.rotate(Eigen::AngleAxisd(angle, joint.axis));
+        X.rotate(AxisRotation(angle, joint.axis));
       }
     }
     text_ += indent + "<body" + Attribute("name", BodyName(link.name)) + PlaceAttributes(X) + ">\n";

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "wpg/elementary.h"
+#include "wpg/geometry/rotation.h"
 #include "wpg/nth.h"
 
 namespace halfstep::replay {
@@ -16,7 +18,7 @@ constexpr double kCarries = 0.05;
 // A point of W as seen from a pose on the floor.
 Eigen::Vector2d SeenFrom(const Pose2& X_WF, const Eigen::Vector2d& p_W) {
   const Eigen::Vector2d d = p_W - Eigen::Vector2d(X_WF.x, X_WF.y);
-  return Eigen::Rotation2Dd(-X_WF.yaw) * d;
+  return PlaneRotation(-X_WF.yaw) * d;
 }
 
 // Simulated less planned place of a sole on the floor.
@@ -28,7 +30,7 @@ Eigen::Vector3d DriftOfSole(const Eigen::Vector4d& planned, const Pose2& here) {
 }  // namespace
 
 Pose2 OnFloor(const Eigen::Isometry3d& X_WB) {
-  return {X_WB.translation().x(), X_WB.translation().y(), std::atan2(X_WB(1, 0), X_WB(0, 0))};
+  return {X_WB.translation().x(), X_WB.translation().y(), Atan2(X_WB(1, 0), X_WB(0, 0))};
 }
 
 Player::Player(const Simulation& robot, const ReferenceMotion& motion, const PlayOptions& options)
@@ -88,7 +90,7 @@ ReplayRow Player::Advance(const ReferenceMotion& motion, const std::optional<Pus
   const TrajectoryRow planned = motion.RowAt(t_ - options_.row_period / 2);
   const Eigen::Isometry3d X_WB = robot_.X_WB();
   row.t = t_;
-  row.tilt = std::acos(std::clamp(X_WB(2, 2), -1.0, 1.0));
+  row.tilt = Acos(std::clamp(X_WB(2, 2), -1.0, 1.0));
   row.waist = X_WB.translation();
   row.fallen = row.tilt > options_.fallen_tilt;
   row.zmp_planned = planned.zmp;

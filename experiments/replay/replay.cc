@@ -7,6 +7,7 @@
 
 #include "experiments/replay/mass_model_zmp.h"
 #include "experiments/tables/csv_writer.h"
+#include "wpg/elementary.h"
 
 namespace halfstep::replay {
 namespace {
@@ -23,7 +24,7 @@ PushLimit FindLimit(const Player& player, const ReferenceMotion& motion, double 
                     double direction, const PushOptions& options) {
   const double yaw = motion.RowAt(at).waist[3];
   PushLimit limit{at, direction, 0.0, std::numeric_limits<double>::infinity()};
-  const Eigen::Vector3d forward(std::cos(yaw + direction), std::sin(yaw + direction), 0.0);
+  const Eigen::Vector3d forward(Cos(yaw + direction), Sin(yaw + direction), 0.0);
   const auto survives = [&](double impulse) {
     return Survives(player, motion, until, {at, options.duration, impulse * forward});
   };

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <vector>
 
+#include "wpg/elementary.h"
 #include "wpg/nth.h"
 
 namespace halfstep {
@@ -20,7 +21,7 @@ std::vector<Eigen::Vector3d> Ring(double radius, double z) {
   std::vector<Eigen::Vector3d> ring;
   for (int i = 0; i < kSides; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / kSides;
-    ring.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
+    ring.emplace_back(radius * Cos(angle), radius * Sin(angle), z);
   }
   return ring;
 }
@@ -30,8 +31,7 @@ std::vector<Eigen::Vector3d> Ball(double radius) {
   constexpr int kRings = kSides / 2;
   for (int i = 1; i < kRings; ++i) {
     const double latitude = std::numbers::pi * (static_cast<double>(i) / kRings - 0.5);
-    for (const Eigen::Vector3d& p :
-         Ring(radius * std::cos(latitude), radius * std::sin(latitude))) {
+    for (const Eigen::Vector3d& p : Ring(radius * Cos(latitude), radius * Sin(latitude))) {
       points.push_back(p);
     }
   }

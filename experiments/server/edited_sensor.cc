@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "experiments/server/quiet_from.h"
+#include "wpg/elementary.h"
 
 namespace halfstep {
 namespace {
@@ -96,7 +97,7 @@ std::string EditedSensor::Apply(const AddBox& box, double now) {
     jump.xyz = Listed(box.at);
     // Turned so from how the scene has it, not from how it stood when it was there last.
     const Eigen::Matrix3d turned = truth().PoseAt(i, now).linear();
-    jump.turn = std::remainder(box.turn - std::atan2(turned(1, 0), turned(0, 0)), 2.0 * M_PI);
+    jump.turn = std::remainder(box.turn - Atan2(turned(1, 0), turned(0, 0)), 2.0 * M_PI);
     sensor_.Append(jump);
     sensor_.Append(EventOf("appear", now, obstacles[i].name));
     return "";

@@ -11,6 +11,7 @@
 #include "experiments/survey/stance_search.h"
 #include "planner/search/plan_shortcut.h"
 #include "smoothing/proof/certified_feasibility.h"
+#include "wpg/elementary.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/text.h"
 #include "wpg/nth.h"
@@ -76,7 +77,7 @@ class WalkDrawing {
 
   void DrawFootsteps() {
     gait_ = DrawGait(random_);
-    const int count = static_cast<int>(std::lround(4.0 * std::pow(10.0, Between(0.0, 1.0))));
+    const int count = static_cast<int>(std::lround(4.0 * Pow(10.0, Between(0.0, 1.0))));
     duration_ = Between(1.2, 3.0) * std::sqrt(scale_);
     Side foot = Between(0.0, 1.0) < 0.5 ? Side::kLeft : Side::kRight;
     Pose2 middle;
@@ -101,7 +102,7 @@ class WalkDrawing {
       const Pose2& middle =
           middles_[static_cast<size_t>(Between(0.0, static_cast<double>(middles_.size())))];
       const Pose2 at = middle * Pose2{scale_ * Between(-0.2, 0.3), scale_ * Between(-0.6, 0.6), 0};
-      const double height = scale_ * 0.02 * std::pow(50.0, Between(0.0, 1.0));
+      const double height = scale_ * 0.02 * Pow(50.0, Between(0.0, 1.0));
       std::string shape;
       if (i % 2 == 0) {
         shape = Formatted("cylinder: {radius_m: %.4f, length_m: %.4f}",

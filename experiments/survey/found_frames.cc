@@ -6,6 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "wpg/elementary.h"
 #include "wpg/geometry/planar_hull.h"
 #include "wpg/geometry/side.h"
 #include "wpg/nth.h"
@@ -26,7 +27,7 @@ constexpr double kUpright = 0.5, kFlat = 0.01, kOnePart = 0.02;
 Vector3d Snapped(const Vector3d& direction, double angle) {
   for (int i = 0; i < 3; ++i) {
     const Vector3d axis = Vector3d::Unit(i) * (direction[i] < 0 ? -1.0 : 1.0);
-    if (direction.dot(axis) > std::cos(angle)) return axis;
+    if (direction.dot(axis) > Cos(angle)) return axis;
   }
   return direction;
 }
@@ -64,7 +65,7 @@ Vector3d LargestFace(const std::vector<const RobotBody*>& bodies, const Vector3d
     double area = 0.0;
     Vector3d normal = Vector3d::Zero();
     for (const Face& face : faces) {
-      if (face.normal.dot(seed.normal) < std::cos(kOnePart)) continue;
+      if (face.normal.dot(seed.normal) < Cos(kOnePart)) continue;
       area += face.area;
       normal += face.area * face.normal;
     }
@@ -93,7 +94,7 @@ std::vector<Vector2d> Touching(const std::vector<const RobotBody*>& bodies, cons
       // Inside of a disc's edge.
       for (int k = 0; disc > 0 && tilt < kNearFloor && k < 64; ++k) {
         const double angle = 2 * std::numbers::pi * k / 64;
-        points.push_back(at + disc * Vector2d(std::cos(angle), std::sin(angle)));
+        points.push_back(at + disc * Vector2d(Cos(angle), Sin(angle)));
       }
     }
   }
@@ -154,7 +155,7 @@ FoundSole FindSole(const Leg& leg, const std::vector<const RobotBody*>& bodies) 
                              " has no flat part that faces the floor with all joints at zero");
   }
   FoundSole sole;
-  sole.tilt = std::acos(std::min(1.0, normal.dot(down)));
+  sole.tilt = Acos(std::min(1.0, normal.dot(down)));
   normal = sole.tilt < kFlat ? down : Snapped(normal, kFlat);
   Matrix3d R;
   R.col(2) = -normal;

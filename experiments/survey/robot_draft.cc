@@ -1,9 +1,9 @@
 #include "experiments/survey/robot_draft.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
+#include "wpg/elementary.h"
 #include "wpg/files/text.h"
 #include "wpg/geometry/side.h"
 #include "wpg/nth.h"
@@ -33,9 +33,8 @@ std::string List(const Eigen::VectorXd& values, int places) {
 
 // Roll, pitch and yaw about fixed axes [deg].
 Eigen::Vector3d RpyOf(const Eigen::Matrix3d& R) {
-  const double pitch = std::atan2(-R(2, 0), std::hypot(R(2, 1), R(2, 2)));
-  return kDegrees *
-         Eigen::Vector3d(std::atan2(R(2, 1), R(2, 2)), pitch, std::atan2(R(1, 0), R(0, 0)));
+  const double pitch = Atan2(-R(2, 0), Hypot(R(2, 1), R(2, 2)));
+  return kDegrees * Eigen::Vector3d(Atan2(R(2, 1), R(2, 2)), pitch, Atan2(R(1, 0), R(0, 0)));
 }
 
 // Text as YAML takes it, whatever is in it.

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <numbers>
 
+#include "wpg/elementary.h"
 #include "wpg/files/text.h"
 #include "wpg/nth.h"
 
@@ -38,7 +38,7 @@ class Drawing {
     std::string points;
     for (int k = 0; k < 72; ++k) {
       const double angle = std::numbers::pi * k / 36;
-      const Vector3d to = std::cos(angle) * view_.right + std::sin(angle) * view_.up;
+      const Vector3d to = Cos(angle) * view_.right + Sin(angle) * view_.up;
       const Vector2d at = At(X_WBody * SupportPoint(body, X_WBody.linear().transpose() * to));
       points += Formatted("%.1f,%.1f ", at.x(), at.y());
     }

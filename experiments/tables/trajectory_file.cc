@@ -7,6 +7,7 @@
 #include "experiments/tables/run_record.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/text.h"
+#include "wpg/geometry/rotation.h"
 #include "wpg/nth.h"
 
 namespace halfstep {
@@ -72,7 +73,7 @@ std::vector<TrajectoryRow> Rows(const CsvTable& table, const RobotModel& robot) 
 
 Eigen::Isometry3d TrajectoryRow::Upright(const Eigen::Vector4d& place) {
   Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
-  X.linear() = Eigen::AngleAxisd(place[3], Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  X.linear() = AxisRotation(place[3], Eigen::Vector3d::UnitZ());
   X.translation() = place.head<3>();
   return X;
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "wpg/elementary.h"
+
 namespace halfstep::opt {
 namespace {
 
@@ -19,7 +21,7 @@ Eigen::VectorXd BoxTransform::ToBox(const Eigen::VectorXd& z) const {
   for (Eigen::Index j = 0; j < z.size(); ++j) {
     const double l = lower_[j], u = upper_[j];
     if (std::isfinite(l) && std::isfinite(u)) {
-      x[j] = std::clamp(l + (u - l) * 0.5 * (1.0 + std::sin(z[j])), l, u);
+      x[j] = std::clamp(l + (u - l) * 0.5 * (1.0 + Sin(z[j])), l, u);
     } else if (std::isfinite(l)) {
       x[j] = std::max(l, l - 1.0 + Root(z[j]));
     } else if (std::isfinite(u)) {
@@ -34,7 +36,7 @@ Eigen::VectorXd BoxTransform::FromBox(const Eigen::VectorXd& x) const {
   for (Eigen::Index j = 0; j < x.size(); ++j) {
     const double l = lower_[j], u = upper_[j];
     if (std::isfinite(l) && std::isfinite(u)) {
-      z[j] = u > l ? std::asin(std::clamp(2.0 * (x[j] - l) / (u - l) - 1.0, -1.0, 1.0)) : 0.0;
+      z[j] = u > l ? Asin(std::clamp(2.0 * (x[j] - l) / (u - l) - 1.0, -1.0, 1.0)) : 0.0;
     } else if (std::isfinite(l)) {
       z[j] = std::sqrt(std::max(0.0, (x[j] - l) * (x[j] - l + 2.0)));
     } else if (std::isfinite(u)) {
@@ -49,7 +51,7 @@ Eigen::VectorXd BoxTransform::Slope(const Eigen::VectorXd& z) const {
   for (Eigen::Index j = 0; j < z.size(); ++j) {
     const double l = lower_[j], u = upper_[j];
     if (std::isfinite(l) && std::isfinite(u)) {
-      slope[j] = (u - l) * 0.5 * std::cos(z[j]);
+      slope[j] = (u - l) * 0.5 * Cos(z[j]);
     } else if (std::isfinite(l)) {
       slope[j] = z[j] / Root(z[j]);
     } else if (std::isfinite(u)) {

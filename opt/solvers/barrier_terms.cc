@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "wpg/elementary.h"
+
 namespace halfstep::opt {
 namespace {
 
@@ -99,7 +101,7 @@ double BarrierTerms::AddedToMerit(double merit, const VectorXd& here, const Vect
     if (IsOutside(side, here)) {
       merit += std::max(0.0, 2.0 * kInside - slack);
     } else if (slack > least_) {
-      merit -= mu * std::log(slack);
+      merit -= mu * Log(slack);
     } else {
       return std::numeric_limits<double>::infinity();
     }

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <numbers>
 #include <vector>
 
+#include "wpg/elementary.h"
 #include "wpg/geometry/triangle_weights.h"
 #include "wpg/nth.h"
 
@@ -225,7 +225,8 @@ class Search {
         turn += 0.3;
         for (int k = 0; k < 6; ++k) {
           const double angle = turn + k * std::numbers::pi / 3;
-          const Vector3d m = (n + step * (std::cos(angle) * t + std::sin(angle) * s)).normalized();
+          const auto [sine, cosine] = SinCos(angle);
+          const Vector3d m = (n + step * (cosine * t + sine * s)).normalized();
           const double slab = Try(m).w.dot(m);
           if (slab <= here.slab) continue;
           here = {slab, m};

@@ -2,11 +2,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <numbers>
 #include <utility>
 
+#include "wpg/elementary.h"
 #include "wpg/nth.h"
 
 namespace halfstep {
@@ -17,8 +17,7 @@ using Eigen::Vector3d;
 // Half the solid angle of a triangle seen from the origin. Source: [VanOosterom1983].
 double HalfAngle(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
   const double la = a.norm(), lb = b.norm(), lc = c.norm();
-  return std::atan2(a.dot(b.cross(c)),
-                    la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+  return Atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
 }
 
 }  // namespace

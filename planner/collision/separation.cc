@@ -15,6 +15,7 @@
 #include "planner/collision/mesh_interior.h"
 #include "planner/collision/triangle_surface.h"
 #include "wpg/check.h"
+#include "wpg/elementary.h"
 #include "wpg/nth.h"
 
 namespace halfstep {
@@ -53,10 +54,10 @@ ConvexBody MakeCore(const ConvexBody& body) {
   std::vector<Eigen::Vector3d> around;
   if (body.disc_radius > 0) {
     const int sides = DiscSides(body.disc_radius);
-    const double reach = body.disc_radius / std::cos(std::numbers::pi / sides) * (1 + 1e-12);
+    const double reach = body.disc_radius / Cos(std::numbers::pi / sides) * (1 + 1e-12);
     for (int i = 0; i < sides; ++i) {
       const double angle = 2 * std::numbers::pi * i / sides;
-      around.emplace_back(reach * std::cos(angle), reach * std::sin(angle), 0);
+      around.emplace_back(reach * Cos(angle), reach * Sin(angle), 0);
     }
   } else {
     for (int axis = 0; axis < 3; ++axis) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wpg/geometry/rotation.h"
+
 namespace halfstep {
 namespace {
 
@@ -40,8 +42,7 @@ Eigen::Isometry3d ObstacleMotion::PoseAt(const Eigen::Isometry3d& X_WO, double t
   const Waypoint at = FrameAt(*this, X_WO, t);
   Eigen::Isometry3d X = X_WO;
   X.translation() = at.translation;
-  X.linear() =
-      Eigen::AngleAxisd(at.yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix() * X_WO.linear();
+  X.linear() = AxisRotation(at.yaw, Eigen::Vector3d::UnitZ()) * X_WO.linear();
   return X;
 }
 

@@ -12,6 +12,7 @@
 #include "wpg/files/input_error.h"
 #include "wpg/files/text.h"
 #include "wpg/files/yaml_fields.h"
+#include "wpg/geometry/rotation.h"
 
 namespace halfstep {
 namespace {
@@ -105,10 +106,7 @@ void DeclareShape(Fields& fields, ObstacleFields* obstacle) {
 // X_WO of a position and turns about the fixed axes: R = Rz·Ry·Rx.
 Eigen::Isometry3d MakePose(const std::vector<double>& xyz, const std::vector<double>& rpy) {
   Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
-  X.linear() = (Eigen::AngleAxisd(rpy[2], Eigen::Vector3d::UnitZ()) *
-                Eigen::AngleAxisd(rpy[1], Eigen::Vector3d::UnitY()) *
-                Eigen::AngleAxisd(rpy[0], Eigen::Vector3d::UnitX()))
-                   .toRotationMatrix();
+  X.linear() = RollPitchYaw(rpy[0], rpy[1], rpy[2]);
   X.translation() = Eigen::Vector3d(xyz[0], xyz[1], xyz[2]);
   return X;
 }

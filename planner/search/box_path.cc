@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <numbers>
 #include <queue>
 #include <tuple>
@@ -10,6 +9,7 @@
 
 #include "planner/scene/simple_polygon.h"
 #include "wpg/check.h"
+#include "wpg/elementary.h"
 #include "wpg/geometry/support_polygon.h"
 #include "wpg/nth.h"
 
@@ -101,11 +101,11 @@ class GridSearch {
     for (int x = -1; x <= 1; ++x) {
       for (int y = -1; y <= 1; ++y) {
         if (x == 0 && y == 0) continue;
-        const double off = std::atan2(y, x) - heading, ahead = std::cos(off);
+        const double off = Atan2(y, x) - heading, ahead = Cos(off);
         const double factor = ahead >= 0.0 ? kSideways + (1.0 - kSideways) * ahead
                                            : kSideways + (kSideways - kBackwards) * ahead;
         Enter({cell[0] + x, cell[1] + y, cell[2]}, index,
-              cost + factor * grid_.spacing * std::hypot(x, y));
+              cost + factor * grid_.spacing * Hypot(x, y));
       }
     }
     for (int way : {1, -1}) {

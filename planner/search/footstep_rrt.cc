@@ -6,6 +6,7 @@
 #include "planner/search/plan_search.h"
 #include "planner/search/plan_shortcut.h"
 #include "planner/search/step_tree.h"
+#include "wpg/elementary.h"
 
 namespace halfstep {
 namespace {
@@ -18,7 +19,7 @@ Pose2 SampleGoal(const GoalRegion& goal, std::mt19937_64& random) {
   } else {
     const double angle = Uniform(0.0, 2.0 * std::numbers::pi, random);
     const double r = goal.radius * std::sqrt(Uniform(0.0, 1.0, random));
-    p_G = {r * std::cos(angle), r * std::sin(angle)};
+    p_G = {r * Cos(angle), r * Sin(angle)};
   }
   const Eigen::Vector2d p_W = goal.X_WG * p_G;
   return {p_W.x(), p_W.y(), goal.X_WG.yaw};

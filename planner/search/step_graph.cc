@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "wpg/check.h"
+#include "wpg/elementary.h"
 #include "wpg/nth.h"
 
 namespace halfstep {
@@ -67,7 +68,7 @@ Foothold StepGraph::Landing(const StepState& from, int k) const {
 }
 
 void StepGraph::Landings(const StepState& from, std::vector<Foothold>* X_WF) const {
-  const double c = std::cos(from.X_WS.yaw), s = std::sin(from.X_WS.yaw);
+  const auto [s, c] = SinCos(from.X_WS.yaw);
   X_WF->clear();
   for (const Foothold& X_SF : Nth(placements_, Index(from.support))) {
     X_WF->push_back({{from.X_WS.x + c * X_SF.x - s * X_SF.y, from.X_WS.y + s * X_SF.x + c * X_SF.y,

@@ -1,9 +1,9 @@
 #include "planner/search/step_tree.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
+#include "wpg/elementary.h"
 #include "wpg/nth.h"
 
 namespace halfstep {
@@ -112,7 +112,7 @@ StepTree::Growth StepTree::Grow(const TreeSample& sample) {
   Pose2 wanted = sample.X_WF;
   const Eigen::Vector2d way = wanted.position() - from.X_WS.Planar().position();
   const bool face_forward = !counts && way.norm() > kFaceForwardBeyond;
-  if (face_forward) wanted.yaw = std::atan2(way.y(), way.x());
+  if (face_forward) wanted.yaw = Atan2(way.y(), way.x());
   const bool with_yaw = face_forward || sample.yaw != TreeSample::Yaw::kFree;
 
   graph_.Landings(from, &landings_);

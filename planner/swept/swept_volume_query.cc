@@ -6,6 +6,7 @@
 
 #include "planner/swept/four_floats.h"
 #include "wpg/check.h"
+#include "wpg/elementary.h"
 #include "wpg/nth.h"
 
 namespace halfstep {
@@ -139,15 +140,15 @@ bool SweptVolumeQuery::MeetsLeaf(const Placed& placed, const BoundsTree::Node& l
 }
 
 SweptVolumeQuery::Placed SweptVolumeQuery::Down(int i, Side support, const Foothold& X_WS) const {
-  return {Nth(volumes_.down, i), Nth(down_bounds_, i), support == Side::kRight, X_WS,
-          std::cos(X_WS.yaw),    std::sin(X_WS.yaw)};
+  const auto [s, c] = SinCos(X_WS.yaw);
+  return {Nth(volumes_.down, i), Nth(down_bounds_, i), support == Side::kRight, X_WS, c, s};
 }
 
 SweptVolumeQuery::Placed SweptVolumeQuery::Up(int i, Side support, const Foothold& X_WS) const {
   // The foot that has landed supports.
   const Foothold X_WF = X_WS * volumes_.set.Placement(i, support);
-  return {Nth(volumes_.up, i), Nth(up_bounds_, i), support == Side::kLeft, X_WF,
-          std::cos(X_WF.yaw),  std::sin(X_WF.yaw)};
+  const auto [s, c] = SinCos(X_WF.yaw);
+  return {Nth(volumes_.up, i), Nth(up_bounds_, i), support == Side::kLeft, X_WF, c, s};
 }
 
 std::vector<SweptVolumeQuery::Bounds> SweptVolumeQuery::BoundsOf(

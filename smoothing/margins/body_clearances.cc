@@ -55,15 +55,6 @@ double BodyClearances::QuickBound(size_t pair, const Scratch& scratch) const {
   return std::max(spheres, quick.legs * (scratch.lateral[quick.a] - scratch.lateral[quick.b]));
 }
 
-bool BodyClearances::QuickClears(size_t pair, double clearance, const Scratch& scratch) const {
-  const Quick& quick = quick_[pair];
-  const double gap = quick.legs * (scratch.lateral[quick.a] - scratch.lateral[quick.b]);
-  if (quick.legs != 0 && gap >= clearance) return true;
-  const double apart = quick.radii + clearance;
-  const double distance2 = (scratch.centers_W[quick.a] - scratch.centers_W[quick.b]).squaredNorm();
-  return apart <= 0.0 || distance2 >= apart * apart;
-}
-
 bool BodyClearances::BodyClears(size_t body, const Posture& posture, double t, double clearance,
                                 Scratch* scratch, double half_width) const {
   ++scratch->queries;
@@ -71,9 +62,8 @@ bool BodyClearances::BodyClears(size_t body, const Posture& posture, double t, d
                        &scratch->bodies[body], half_width);
 }
 
-bool BodyClearances::PairClears(size_t pair, const Posture& posture, double clearance,
-                                Scratch* scratch) const {
-  if (QuickClears(pair, clearance, *scratch)) return true;
+bool BodyClearances::Separates(size_t pair, const Posture& posture, double clearance,
+                               Scratch* scratch) const {
   const auto [i, j] = robot_.self_pairs[pair];
   const size_t a = static_cast<size_t>(i), b = static_cast<size_t>(j);
   ++scratch->queries;

@@ -47,7 +47,9 @@ class BodyClearances {
   bool BodyClears(size_t body, const Posture& posture, double t, double clearance, Scratch* scratch,
                   double half_width = 0.0) const;
   /// Whether the bodies of a pair keep `clearance` [m].
-  bool PairClears(size_t pair, const Posture& posture, double clearance, Scratch* scratch) const;
+  bool PairClears(size_t pair, const Posture& posture, double clearance, Scratch* scratch) const {
+    return QuickClears(pair, clearance, *scratch) || Separates(pair, posture, clearance, scratch);
+  }
   /// The clearance of one body, and that of one pair; `cap` [m] when nothing is nearer. With a
   /// `half_width` [s], that of the obstacle whose margin may be the least within it
   /// (CollisionWorld::FindNearest).
@@ -80,7 +82,17 @@ class BodyClearances {
   // A lower bound of the distance of a pair, from Place's numbers alone [m]; whether it tells that
   // a pair keeps a clearance [m].
   double QuickBound(size_t pair, const Scratch& scratch) const;
-  bool QuickClears(size_t pair, double clearance, const Scratch& scratch) const;
+  bool QuickClears(size_t pair, double clearance, const Scratch& scratch) const {
+    const Quick& quick = quick_[pair];
+    const double gap = quick.legs * (scratch.lateral[quick.a] - scratch.lateral[quick.b]);
+    if (quick.legs != 0 && gap >= clearance) return true;
+    const double apart = quick.radii + clearance;
+    const double distance2 =
+        (scratch.centers_W[quick.a] - scratch.centers_W[quick.b]).squaredNorm();
+    return apart <= 0.0 || distance2 >= apart * apart;
+  }
+  // Whether their shapes tell so.
+  bool Separates(size_t pair, const Posture& posture, double clearance, Scratch* scratch) const;
 
   struct Quick {
     size_t a, b;

@@ -12,8 +12,7 @@ namespace {
 std::optional<FootFriction> FrictionAt(Instant* at) {
   const RobotDynamics* dynamics = at->dynamics();
   if (dynamics == nullptr) return std::nullopt;
-  return FootFriction::Of(*dynamics,
-                          SupportAt(at->walk(), at->at(), at->jet().value, at->robot().sole_size));
+  return FootFriction::Of(*dynamics, at->support());
 }
 
 std::optional<NotCovered> SceneWithoutFriction(const Scene& scene) {
@@ -68,9 +67,8 @@ class FrictionMargin final : public SupportFamily {
     if (at->demanded(family()) == kNotDemanded) return;
     const auto friction = FrictionAt(at);
     if (!friction) return;
-    rows->AddOfPosture(at, place_.scene.friction - friction->needed(), [&](PostureGradient* of) {
-      *of = GradientOf(at, -friction->Gradient());
-    });
+    rows->AddOfPosture(at, place_.scene.friction - friction->needed(),
+                       [&](PostureGradient* of) { *of = GradientOf(at, -friction->Gradient()); });
   }
 
  protected:

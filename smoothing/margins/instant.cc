@@ -54,6 +54,11 @@ const RobotDynamics* Instant::motion() {
   return &*motion_;
 }
 
+const SupportPolygon& Instant::support() {
+  if (!support_) support_ = SupportAt(walk_, at_, jet_.value, robot().sole_size);
+  return *support_;
+}
+
 WalkThirds MarginInterval::Thirds() const {
   const double middle = mid.t(), h = motion.half_width;
   return mid.walk().ThirdRanges(middle - h, middle + h);

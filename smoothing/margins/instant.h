@@ -56,6 +56,8 @@ class Instant {
   const RobotDynamics* dynamics();
   /// The same where masses are not known: then it has velocities and accelerations only.
   const RobotDynamics* motion();
+  /// What supports the robot there (SupportAt), made when it is first asked for.
+  const SupportPolygon& support();
   MarginScratch& scratch() const { return scratch_; }  ///< what families remember between instants
 
  private:
@@ -70,6 +72,7 @@ class Instant {
   const Posture* posture_ = nullptr;  // null: not solved yet
   bool speeds_tried_ = false, regular_ = false;
   std::optional<RobotDynamics> motion_;
+  std::optional<SupportPolygon> support_;
 };
 
 /// An interval of time around an instant, [mid − h, mid + h], and bounds of how much the motion

@@ -55,7 +55,8 @@ struct JointValue {
 /// be said of the legs. `Family` has
 ///   - `std::optional<ByLegs> ValuesAt(Instant*)`: none where nothing can be said;
 ///   - `double Limit(const Instant&, const LegJoint&)`: +∞ where there is none;
-///   - `void AddSize(Instant*, const JointValue&, double margin, SlackSink*, std::vector<ByLegs>*)`,
+///   - `void AddSize(Instant*, const JointValue&, double margin, SlackSink*,
+///   std::vector<ByLegs>*)`,
 ///     which adds the row of a joint; the last is for what it makes once for all joints.
 template <typename Family>
 class JointSizeFamily : public JointFamily {

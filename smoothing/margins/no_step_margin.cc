@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "smoothing/margins/family_class.h"
+#include "wpg/elementary.h"
 #include "wpg/nth.h"
 
 namespace halfstep {
@@ -74,7 +75,7 @@ class NoStepMargin final : public WholeFamily {
       // A sole that stands does not move: its quantities change by 0 and rounding.
       const int foot = FootIndex(side);
       const IntervalMotion& motion = interval.motion;
-      const double moved = std::hypot(motion.Change(foot), motion.Change(foot + 1)) +
+      const double moved = Hypot(motion.Change(foot), motion.Change(foot + 1)) +
                            place_.areas.sole_reach() * motion.Change(foot + 3);
       const Margin margin = OfSole(interval.mid, side);
       tightest->Add(margin, (std::isinf(margin.value) ? 0.0 : moved) + interval.mid.rounding());

@@ -25,9 +25,9 @@ struct InstantSlacks {
   double Slope(size_t row, const HomotopyParameter& parameter) const;
 };
 
-/// Evaluates slacks and their analytic derivatives: each statement's gradient is pulled back from its
-/// witness points through the leg inverse kinematics to the walk's quantities, and multiplied by how
-/// the superposition moves these along each parameter. Use one for each thread.
+/// Evaluates slacks and their analytic derivatives: each statement's gradient is pulled back from
+/// its witness points through the leg inverse kinematics to the walk's quantities, and multiplied
+/// by how the superposition moves these along each parameter. Use one for each thread.
 class SlackEvaluator {
  public:
   /// `evaluator` is borrowed. Statements with slack above `cutoff` are left out. Derivatives are

@@ -6,25 +6,20 @@ namespace halfstep {
 
 using Eigen::Vector2d;
 
-SupportEdges::SupportEdges(const SuperposedWalk& walk, const LocalTime& at, const WalkState& x,
-                           const Vector2d& sole_size)
-    : polygon_(SupportAt(walk, at, x, sole_size)), x_(x), sole_size_(sole_size) {}
-
 void SupportEdges::AddCorner(const Vector2d& corner, const Vector2d& weight,
                              WalkState* gradient) const {
+  const WalkState& x = at_.jet().value;
   // It is a corner of that sole which has one there.
   double nearest = std::numeric_limits<double>::infinity();
   Side of = Side::kLeft;
   for (const Side side : {Side::kLeft, Side::kRight}) {
-    const double distance = (SoleCorners(FootPose(x_, side), sole_size_).colwise() - corner)
-                                .colwise()
-                                .norm()
-                                .minCoeff();
+    const auto corners = SoleCorners(FootPose(x, side), at_.robot().sole_size);
+    const double distance = (corners.colwise() - corner).colwise().norm().minCoeff();
     if (!(distance < nearest)) continue;
     nearest = distance;
     of = side;
   }
-  const Vector2d arm = corner - FootPose(x_, of).position();
+  const Vector2d arm = corner - FootPose(x, of).position();
   const int foot = FootIndex(of);
   gradient->segment<2>(foot) += weight;
   (*gradient)[foot + 3] += weight.dot(Vector2d(-arm.y(), arm.x()));

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "smoothing/walk/superposed_walk.h"
+#include "smoothing/margins/instant.h"
 #include "wpg/geometry/support_polygon.h"
 
 namespace halfstep {
@@ -11,11 +11,9 @@ namespace halfstep {
 /// and how they change when the point moves and, with footsteps, the soles.
 class SupportEdges {
  public:
-  /// Of a walk at an instant where its quantities are `x`. `sole_size`: length and width [m].
-  SupportEdges(const SuperposedWalk& walk, const LocalTime& at, const WalkState& x,
-               const Eigen::Vector2d& sole_size);
+  /// Of the instant, which is borrowed.
+  explicit SupportEdges(Instant* at) : polygon_(at->support()), at_(*at) {}
 
-  const SupportPolygon& polygon() const { return polygon_; }  ///< in W
   /// Calls visit(i, inward) for each edge i with its inward unit normal, in W.
   template <typename Visit>
   void ForEach(const Visit& visit) const {
@@ -38,9 +36,8 @@ class SupportEdges {
   void AddCorner(const Eigen::Vector2d& corner, const Eigen::Vector2d& weight,
                  WalkState* gradient) const;
 
-  SupportPolygon polygon_;
-  WalkState x_;
-  Eigen::Vector2d sole_size_;
+  const SupportPolygon& polygon_;
+  const Instant& at_;
 };
 
 }  // namespace halfstep

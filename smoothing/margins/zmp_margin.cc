@@ -32,17 +32,15 @@ class ZmpMargin final : public SupportFamily {
   explicit ZmpMargin(const MarginPlace&) : SupportFamily(kTraits) {}
 
   Margin Least(Instant* at, double) const override {
-    const WalkState& x = at->jet().value;
-    const SupportPolygon polygon = SupportAt(at->walk(), at->at(), x, at->robot().sole_size);
     Margin least = Of(kUnlimited, -1);
-    Lower(Of(polygon.Margin(x.segment<2>(kZmpX)), at->step_in_air()), &least);
+    const double inside = at->support().Margin(at->jet().value.segment<2>(kZmpX));
+    Lower(Of(inside, at->step_in_air()), &least);
     return least;
   }
 
   void AddRows(Instant* at, SlackSink* rows) const override {
-    const WalkState& x = at->jet().value;
-    const SupportEdges edges(at->walk(), at->at(), x, at->robot().sole_size);
-    const Eigen::Vector2d zmp = x.segment<2>(kZmpX);
+    const SupportEdges edges(at);
+    const Eigen::Vector2d zmp = at->jet().value.segment<2>(kZmpX);
     edges.ForEach([&](int i, const Eigen::Vector2d& inward) {
       rows->Add(edges.Inside(i, inward, zmp), [&] {
         WalkJet gradient;

@@ -7,11 +7,6 @@
 namespace halfstep {
 namespace {
 
-// What bears the robot at an instant.
-SupportEdges EdgesAt(const Instant& at) {
-  return {at.walk(), at.at(), at.jet().value, at.robot().sole_size};
-}
-
 // None where nothing can be said, or the floor does not push.
 std::optional<Eigen::Vector2d> ZmpAt(Instant* at) {
   const RobotDynamics* dynamics = at->dynamics();
@@ -57,7 +52,7 @@ class ZmpRobotMargin final : public SupportFamily {
     const auto zmp = ZmpAt(at);
     if (!zmp) return Of(-kUnlimited, at->step_in_air());
     Margin least = Of(kUnlimited, -1);
-    Lower(Of(EdgesAt(*at).polygon().Margin(*zmp), at->step_in_air()), &least);
+    Lower(Of(at->support().Margin(*zmp), at->step_in_air()), &least);
     return least;
   }
 
@@ -65,7 +60,7 @@ class ZmpRobotMargin final : public SupportFamily {
     if (at->demanded(family()) == kNotDemanded) return;
     const auto zmp = ZmpAt(at);
     if (!zmp) return;
-    const SupportEdges edges = EdgesAt(*at);
+    const SupportEdges edges(at);
     edges.ForEach([&](int i, const Eigen::Vector2d& inward) {
       rows->AddOfPosture(at, edges.Inside(i, inward, *zmp), [&](PostureGradient* of) {
         *of = GradientOf(at, at->dynamics()->ZmpGradient(inward));
@@ -87,8 +82,8 @@ class ZmpRobotMargin final : public SupportFamily {
       tightest->Add(Of(-kUnlimited, step), 0.0);
       return;
     }
-    const SupportEdges edges = EdgesAt(mid);
-    const double margin = edges.polygon().Margin(*zmp);
+    const SupportEdges edges(&mid);
+    const double margin = mid.support().Margin(*zmp);
     double least = margin;
     if (margin >= mid.demanded(family())) {
       const auto least_over = [&](const ZmpDrift& drift) {

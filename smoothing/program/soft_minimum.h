@@ -1,7 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cmath>
+
+#include "wpg/elementary.h"
 
 namespace halfstep {
 
@@ -15,12 +16,12 @@ struct SoftMinimum {
   /// Adds a slack; returns its weight e^{−ρ·(slack − least)}, by which its gradient is to be added.
   double Add(double slack, double sharpness) {
     if (slack < least) {
-      const double shrink = std::exp(-sharpness * (least - slack));
+      const double shrink = Exp(-sharpness * (least - slack));
       sum *= shrink;
       gradient *= shrink;
       least = slack;
     }
-    const double weight = std::exp(-sharpness * (slack - least));
+    const double weight = Exp(-sharpness * (slack - least));
     sum += weight;
     return weight;
   }

@@ -1,9 +1,10 @@
 #include "smoothing/program/watched_instants.h"
 
 #include <algorithm>
-#include <cmath>
 
+#include "smoothing/program/band_columns.h"
 #include "smoothing/program/soft_minimum.h"
+#include "wpg/elementary.h"
 #include "wpg/nth.h"
 
 namespace halfstep {
@@ -149,55 +150,52 @@ void WatchedInstants::EvaluateHalfStep(const SuperposedWalk& walk, const Eigen::
                                        SlackEvaluator* slacks, Eigen::VectorXd* values,
                                        double* nonzeros) const {
   const double rho = options_.sharpness;
-  const std::vector<int>& columns = band(k);
-  const Eigen::Index width = static_cast<Eigen::Index>(columns.size());
+  const Eigen::Index width = std::ssize(band(k));
+  std::optional<BandColumns> columns;
+  if (nonzeros) columns.emplace(variables_, band(k), x, walk.parameters());
+  // Gradients are gathered along parameters, and pulled back to x when all is gathered.
   const SoftMinimum nothing{options_.cutoff, 1.0, Eigen::VectorXd::Zero(nonzeros ? width : 0)};
   std::vector<SoftMinimum> minima(static_cast<size_t>(NumRowFamilies()), nothing);
   double* value = values->data() + Nth(first_rows_, k);
   const auto write = [&] {
     for (int row = 0; row < NumRowFamilies(); ++row) {
       SoftMinimum& minimum = Nth(minima, row);
-      *value++ = minimum.least - std::log(minimum.sum) / rho - reserves_.of(k, row);
-      for (Eigen::Index c = 0; nonzeros && c < width; ++c) {
-        *nonzeros++ = minimum.gradient[c] / minimum.sum;
+      *value++ = minimum.least - Log(minimum.sum) / rho - reserves_.of(k, row);
+      if (nonzeros) {
+        minimum.gradient /= minimum.sum;
+        columns->Pull(minimum.gradient, nonzeros);
+        nonzeros += width;
       }
       minimum = nothing;
     }
   };
   ParameterRates moving;
   InstantSlacks instant;
+  std::vector<Eigen::Index> of_parameters;  // their columns
   std::optional<SuperposedWalk> branch;
   if (WatchesBranch(k)) branch = walk.StopBranch(k);
-  Eigen::MatrixXd pull;   // ∂parameter/∂x on the band (parameters × width)
-  Eigen::VectorXd later;  // ∂t/∂x on the band (width); empty where obstacles rest
   for (const Instant& where : Nth(instants_, k)) {
     if (where.far) continue;
     const LocalTime at = At(walk, k, where, &moving);
     const bool of_branch = where.of == Instant::Of::kBranch;
     slacks->At(of_branch ? *branch : walk, at, moving, nonzeros != nullptr, &instant);
-    if (nonzeros && !instant.rows.empty()) {
-      pull.setZero(static_cast<Eigen::Index>(instant.parameters.size()), width);
-      later.setZero(instant.times.empty() ? 0 : width);
-      // Adds what a derivative along a parameter makes of x.
-      const auto add = [&](const HomotopyParameter& parameter, double slope, auto&& row) {
-        variables_.Pull(parameter, slope, x, walk.parameters(), [&](int variable, double value) {
-          row(std::find(columns.begin(), columns.end(), variable) - columns.begin()) += value;
-        });
-      };
-      for (size_t p = 0; p < instant.parameters.size(); ++p) {
-        add(instant.parameters[p], 1.0, pull.row(static_cast<Eigen::Index>(p)));
-      }
-      for (const auto& [parameter, slope] : instant.times) add(parameter, slope, later);
-    }
+    of_parameters.clear();
     for (size_t r = 0; r < instant.rows.size(); ++r) {
-      const int place = order_.row(instant.rows[r].family);
-      SoftMinimum& minimum = Nth(minima, place);
-      const double weight = minimum.Add(instant.rows[r].slack, rho);
+      const SlackRow& row = instant.rows[r];
+      SoftMinimum& minimum = Nth(minima, order_.row(row.family));
+      const double weight = minimum.Add(row.slack, rho);
       if (!nonzeros || weight < 1e-9) continue;
-      minimum.gradient.noalias() +=
-          weight *
-          (pull.transpose() * instant.gradient.row(static_cast<Eigen::Index>(r)).transpose());
-      if (later.size() > 0) minimum.gradient += weight * instant.rows[r].rate * later;
+      if (of_parameters.empty()) {
+        for (const auto& along : instant.parameters) of_parameters.push_back(columns->Of(along));
+      }
+      for (size_t p = 0; p < of_parameters.size(); ++p) {
+        minimum.gradient[of_parameters[p]] +=
+            weight * instant.gradient(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(p));
+      }
+      for (const auto& [parameter, slope] : instant.times) {
+        if (variables_.IndexOf(parameter) < 0) continue;
+        minimum.gradient[columns->Of(parameter)] += weight * row.rate * slope;
+      }
     }
     if (options_.row_per_instant) write();
   }

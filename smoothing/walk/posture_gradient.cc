@@ -9,7 +9,8 @@ bool Any(const Vector6d& x) { return (x.array() != 0.0).any(); }
 
 // The gradient of by_twist · (δJ·q̇) with respect to δq. Joint k carries along all joints beyond it,
 // and moves the sole's origin p under those before it and itself:
-// δJ·q̇ = δq_k (ω_k × Ω_{>k}, ω_k × V_{>k} + Ω_{≤k} × (ω_k × (p − o_k))), Ω = Σ q̇_j ω_j, V = that of p.
+// δJ·q̇ = δq_k (ω_k × Ω_{>k}, ω_k × V_{>k} + Ω_{≤k} × (ω_k × (p − o_k))), Ω = Σ q̇_j ω_j, V = that of
+// p.
 Vector6d ByJacobian(const LegFrames& frames, const Vector6d& speeds, const Vector6d& by_twist) {
   const Vector3d by_turn = by_twist.head<3>(), by_move = by_twist.tail<3>();
   const Vector3d sole = frames.X_BLink[6].translation();
@@ -23,9 +24,8 @@ Vector6d ByJacobian(const LegFrames& frames, const Vector6d& speeds, const Vecto
   Vector6d by_q;
   for (size_t k = 6; k-- > 0;) {
     const Eigen::Index i = static_cast<Eigen::Index>(k);
-    by_q[i] =
-        frames.axis_B[k].dot(turn_beyond.cross(by_turn) + velocity_beyond.cross(by_move)) +
-        by_move.cross(turn).dot(moves[k]);
+    by_q[i] = frames.axis_B[k].dot(turn_beyond.cross(by_turn) + velocity_beyond.cross(by_move)) +
+              by_move.cross(turn).dot(moves[k]);
     turn -= speeds[i] * frames.axis_B[k];
     turn_beyond += speeds[i] * frames.axis_B[k];
     velocity_beyond += speeds[i] * moves[k];

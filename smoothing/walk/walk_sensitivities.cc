@@ -1,11 +1,25 @@
 #include <algorithm>
 
 #include "smoothing/walk/superposed_walk.h"
+#include "wpg/geometry/rotation.h"
 #include "wpg/motion/rest_state_slopes.h"
 #include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
+
+// The families of a part.
+template <ParameterPart part>
+const std::vector<ParameterFamily>& FamiliesOf() {
+  static const std::vector<ParameterFamily> families = [] {
+    std::vector<ParameterFamily> of_part;
+    for (const ParameterFamily family : AllParameterFamilies()) {
+      if (Traits(family).part == part) of_part.push_back(family);
+    }
+    return of_part;
+  }();
+  return families;
+}
 
 // The derivatives along the parameters that are wanted, each summed up over half-steps.
 class Sums {
@@ -23,7 +37,7 @@ class Sums {
         if (s.parameter == parameter) return s.jet;
       }
     }
-    out_.push_back({parameter, {}});
+    out_.emplace_back().parameter = parameter;
     return out_.back().jet;
   }
 
@@ -68,6 +82,8 @@ class UnderWay {
     const ProfileJets by = tracks_.ProfilesByShape(number, tau_);
     for (const Track& track : tracks_.tracks()) {
       const ProfileJet& p = Nth(by, track.profile);
+      if (p.value == 0.0 && p.first == 0.0 && p.second == 0.0)
+        continue;  // most do not depend on it
       Add(track.quantity, p.value, p.first, p.second, track.change, jet);
     }
   }
@@ -146,27 +162,25 @@ void SuperposedWalk::Sensitivities(const LocalTime& at, std::vector<WalkSensitiv
     }
 
     const Eigen::Matrix2d R_WS = p.X_WS.Planar().rotation();
-    for (const Family family : AllParameterFamilies()) {
+    for (const Family family : FamiliesOf<ParameterPart::kState>()) {
       const ParameterFamilyTraits& traits = Traits(family);
       const HomotopyParameter parameter{family, traits.index_at(i)};
-      if (traits.part != ParameterPart::kState || !sums.Wants(parameter)) continue;
+      if (!sums.Wants(parameter)) continue;
       AddOfStates(p.half_step, SlopesAlong(traits, p.half_step, p.planned, R_WS), under_way,
                   &sums.Of(parameter, /*met=*/i > first));
     }
-    for (const Family family : AllParameterFamilies()) {
-      const ParameterFamilyTraits& traits = Traits(family);
-      if (traits.part != ParameterPart::kProfile || !sums.Wants({family, i})) continue;
-      under_way.AddOfProfiles(traits.shape, &sums.Of({family, i}, /*met=*/false));
+    for (const Family family : FamiliesOf<ParameterPart::kProfile>()) {
+      if (!sums.Wants({family, i})) continue;
+      under_way.AddOfProfiles(Traits(family).shape, &sums.Of({family, i}, /*met=*/false));
     }
     const double swing_yaw = p.X_WS.yaw + p.half_step.X_SF.yaw;
     for (const auto& [step, yaw] : {std::pair{p.on.support, p.X_WS.yaw}, {p.on.swing, swing_yaw}}) {
       if (step < 0) continue;
-      const double turned = Nth(parameters_.footstep_yaws, step);
-      const Eigen::Matrix2d planned = Eigen::Rotation2Dd(yaw - turned).toRotationMatrix();
-      for (const Family family : AllParameterFamilies()) {
-        const ParameterFamilyTraits& traits = Traits(family);
-        if (traits.part != ParameterPart::kFootstep || !sums.Wants({family, step})) continue;
-        const SoleMove move = MoveOfSole(traits.move, planned), none = SoleMove::Zero();
+      for (const Family family : FamiliesOf<ParameterPart::kFootstep>()) {
+        if (!sums.Wants({family, step})) continue;
+        const double turned = Nth(parameters_.footstep_yaws, step);
+        const Eigen::Matrix2d planned = PlaneRotation(yaw - turned);
+        const SoleMove move = MoveOfSole(Traits(family).move, planned), none = SoleMove::Zero();
         const bool is_support = step == p.on.support;
         AddOfStates(
             p.half_step,

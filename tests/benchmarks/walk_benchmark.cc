@@ -5,6 +5,7 @@
 
 #include "experiments/config/experiment.h"
 #include "smoothing/margins/margin_evaluator.h"
+#include "smoothing/margins/slack_evaluator.h"
 #include "smoothing/methods/dichotomy.h"
 #include "smoothing/proof/sampled_feasibility.h"
 #include "tests/smoothing/smoothed.h"
@@ -86,6 +87,33 @@ void MarginValues(benchmark::State& state) {
   });
 }
 BENCHMARK(MarginValues);
+
+// Instants as an overlap program asks for them, all parameters moved.
+void AskSlacks(benchmark::State& state, bool gradient) {
+  const Experiment e = Load("bar_8cm");
+  const MarginEvaluator evaluator(e.robot, e.scene, e.config.smoothing.limits);
+  HomotopyParameters fast = PlannedMotion(e.sequence);
+  for (double& duration : fast.durations) duration *= 0.5;
+  for (int i = 0; i < e.sequence.num_junctions(); ++i) {
+    fast.overlaps[static_cast<size_t>(i)] = 0.7 * NaturalOverlapBound(fast, i);
+  }
+  const SuperposedWalk walk(e.sequence, fast);
+  Instants instants(walk);
+  SlackEvaluator slacks(evaluator, 1.8);
+  InstantSlacks instant;
+  double rows = 0.0;
+  for (auto _ : state) {
+    slacks.At(walk, instants.Next(), {}, gradient, &instant);
+    rows += static_cast<double>(instant.rows.size());
+  }
+  state.counters["rows"] = benchmark::Counter(rows, benchmark::Counter::kAvgIterations);
+}
+
+void NearRows(benchmark::State& state) { AskSlacks(state, false); }
+BENCHMARK(NearRows);
+
+void NearRowsWithDerivatives(benchmark::State& state) { AskSlacks(state, true); }
+BENCHMARK(NearRowsWithDerivatives);
 
 void MarginPass(benchmark::State& state) {
   const Experiment e = Load("bar_8cm");

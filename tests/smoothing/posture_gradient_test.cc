@@ -27,7 +27,8 @@ PostureGradient Drawn(int kind, WalkDraw* draw) {
 }
 
 // The product with a tangent, before it is pulled back.
-double Pushed(const PostureGradient& gradient, const WalkJet& along, const PostureTangent& tangent) {
+double Pushed(const PostureGradient& gradient, const WalkJet& along,
+              const PostureTangent& tangent) {
   double sum = Product(gradient.jet, along) + gradient.waist.dot(tangent.waist) +
                gradient.waist_yaw * tangent.waist_yaw;
   for (size_t s = 0; s < 2; ++s) {

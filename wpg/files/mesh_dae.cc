@@ -16,6 +16,7 @@
 #include "wpg/files/mesh_text.h"
 #include "wpg/files/nesting.h"
 #include "wpg/files/text.h"
+#include "wpg/geometry/rotation.h"
 #include "wpg/nth.h"
 
 namespace halfstep {
@@ -164,7 +165,7 @@ class DaeReader {
         const std::vector<double> r = Exactly(*e, 4);
         const Eigen::Vector3d axis(r[0], r[1], r[2]);
         if (axis.norm() < 1e-9) Fail(*e, "the axis has no direction");
-        X.rotate(Eigen::AngleAxisd(r[3] * std::numbers::pi / 180.0, axis.normalized()));
+        X.rotate(AxisRotation(r[3] * std::numbers::pi / 180.0, axis.normalized()));
       } else if (kind == "lookat" || kind == "skew" || kind == "instance_controller") {
         Fail(*e, "is not understood (export the mesh with plain transforms and no bones)");
       }

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "wpg/check.h"
+#include "wpg/elementary.h"
 
 namespace halfstep {
 namespace {
@@ -18,7 +19,7 @@ double FarthestFrom(const ConvexBody& body, const Eigen::Vector3d& center, int* 
   double farthest = -1.0;
   for (int i = 0; i < static_cast<int>(body.vertices.cols()); ++i) {
     const Eigen::Vector3d d = body.vertices.col(i) - center;
-    const double reach = std::hypot(d.head<2>().norm() + body.disc_radius, d.z());
+    const double reach = Hypot(d.head<2>().norm() + body.disc_radius, d.z());
     if (reach > farthest) {
       farthest = reach;
       *vertex = i;

@@ -4,6 +4,9 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "wpg/elementary.h"
+#include "wpg/geometry/rotation.h"
+
 namespace halfstep {
 
 /// Planar pose X_AB of frame B in frame A: position (x, y) [m] and yaw [rad] (not wrapped: yaw is a
@@ -17,11 +20,11 @@ struct Pose2 {
   bool AllFinite() const { return std::isfinite(x) && std::isfinite(y) && std::isfinite(yaw); }
   Eigen::Vector2d position() const { return {x, y}; }  ///< (x, y) [m]
   /// R_AB (2×2).
-  Eigen::Matrix2d rotation() const { return Eigen::Rotation2Dd(yaw).toRotationMatrix(); }
+  Eigen::Matrix2d rotation() const { return PlaneRotation(yaw); }
 
   /// p_A = X_AB · p_B [m].
   Eigen::Vector2d operator*(const Eigen::Vector2d& p_B) const {
-    const double c = std::cos(yaw), s = std::sin(yaw);
+    const auto [s, c] = SinCos(yaw);
     return {x + c * p_B.x() - s * p_B.y(), y + s * p_B.x() + c * p_B.y()};
   }
   /// X_AC = X_AB · X_BC.
@@ -31,7 +34,7 @@ struct Pose2 {
   }
   /// X_BA.
   Pose2 Inverse() const {
-    const double c = std::cos(yaw), s = std::sin(yaw);
+    const auto [s, c] = SinCos(yaw);
     return {-c * x - s * y, s * x - c * y, -yaw};
   }
   /// Reflection in the xz plane: left becomes right.
@@ -43,7 +46,7 @@ struct Pose2 {
 /// X_AB in space, at height z [m], upright.
 inline Eigen::Isometry3d ToIsometry(const Pose2& X_AB, double z) {
   Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
-  X.linear() = Eigen::AngleAxisd(X_AB.yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  X.linear() = AxisRotation(X_AB.yaw, Eigen::Vector3d::UnitZ());
   X.translation() = Eigen::Vector3d(X_AB.x, X_AB.y, z);
   return X;
 }

@@ -9,8 +9,8 @@ namespace halfstep {
 /// The gradient of a number that depends on what the floor gives (RobotDynamics::contact), with
 /// respect to the walk's quantities and the legs' joints: the transpose of DynamicsSlope::contact.
 /// Its change along a tangent is the sum of its products with the tangent's parts. Exact, by one
-/// sweep from the soles to the waist, of vectors only. Source: wpg/README.md, "Dynamics of the whole
-/// robot"; [Singh2022].
+/// sweep from the soles to the waist, of vectors only. Source: wpg/README.md, "Dynamics of the
+/// whole robot"; [Singh2022].
 struct ContactGradient {
   WalkJet jet;                     ///< of the walk's quantities, in W
   std::array<Vector6d, 2> q;       ///< of joint angles [1/rad], by Index(Side)

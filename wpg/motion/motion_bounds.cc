@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "wpg/check.h"
+#include "wpg/elementary.h"
 #include "wpg/nth.h"
 #include "wpg/robot/offset_leg_bound.h"
 
@@ -21,7 +22,7 @@ double YawRate(const WalkJet& jet, Side side) {
 }
 
 // √(x² + y²) of two quantities' sups.
-double Planar(const WalkState& x, int quantity) { return std::hypot(x[quantity], x[quantity + 1]); }
+double Planar(const WalkState& x, int quantity) { return Hypot(x[quantity], x[quantity + 1]); }
 
 }  // namespace
 
@@ -114,7 +115,7 @@ bool MotionBounds::BoundLeg(Side side, const BaseRates& waist, const LegRates& r
       posture.X_WB.translation() + hip_W - posture.X_WSole[s].translation() - ankle_W;
   const Eigen::Vector3d w_rate = posture.waist_velocity + first[kWaistYaw] * z.cross(hip_W) -
                                  first.segment<3>(foot) - first[foot + 3] * z.cross(ankle_W);
-  const double hip_lever = std::hypot(anchors.hip_B().x() - robot_.com_x_B, anchors.hip_B().y());
+  const double hip_lever = Hypot(anchors.hip_B().x() - robot_.com_x_B, anchors.hip_B().y());
   const double ankle_lever = anchors.ankle_S().head<2>().norm();
   Eigen::Vector3d second = motion->second.segment<3>(foot);
   second.head<2>() +=

@@ -130,6 +130,7 @@ RestToRest::RestToRest(double theta, double shift_fraction, double bump_ramp)
   add_all(motion.by_ramp, &com_by_ramp_, &zmp_by_ramp_);
 }
 
+template <bool with_theta>
 UnitJet RestToRest::Piece::At(double sigma) const {
   const double r = 1.0 / width;
   const double x = (sigma - center) * r;
@@ -140,6 +141,7 @@ UnitJet RestToRest::Piece::At(double sigma) const {
     f.ss = f.ss * x + 2.0 * f.s;
     f.s = f.s * x + f.value;
     f.value = f.value * x + c.value;
+    if constexpr (!with_theta) continue;
     f.theta_ss = f.theta_ss * x + 2.0 * f.theta_s;
     f.theta_s = f.theta_s * x + f.theta;
     f.theta = f.theta * x + c.theta;
@@ -152,28 +154,12 @@ UnitJet RestToRest::Piece::At(double sigma) const {
   return f;
 }
 
-UnitJet RestToRest::Piece::InTime(double sigma) const {
-  const double r = 1.0 / width;
-  const double x = (sigma - center) * r;
-  UnitJet f;
-  for (size_t k = coefficients.size(); k-- > 0;) {
-    f.sss = f.sss * x + 3.0 * f.ss;
-    f.ss = f.ss * x + 2.0 * f.s;
-    f.s = f.s * x + f.value;
-    f.value = f.value * x + coefficients[k].value;
-  }
-  f.s *= r;
-  f.ss *= r * r;
-  f.sss *= r * r * r;
-  return f;
-}
-
 // With x(σ; fraction) the pieces move: F is at x, so it moves like the time w = −(center' +
 // x·width').
 UnitJet RestToRest::Piece::ByShift(double sigma) const {
   const double r = 1.0 / width;
   const double x = (sigma - center) * r;
-  UnitJet f = InTime(sigma).Moved(-(center_shift + x * width_shift), -width_shift * r);
+  UnitJet f = At<false>(sigma).Moved(-(center_shift + x * width_shift), -width_shift * r);
   double value = 0.0, s = 0.0, ss = 0.0;
   for (size_t k = coefficients.size(); k-- > 0;) {
     ss = ss * x + 2.0 * s;
@@ -209,9 +195,9 @@ UnitJet RestToRest::ByBumpRamp(const std::vector<Piece>& pieces, const std::vect
                                double sigma) const {
   if (sigma <= 0.0 || sigma >= 1.0) return {};
   if (sigma > 0.5) return ReflectedSlope(ByBumpRamp(pieces, by_ramp, 1.0 - sigma));
-  UnitJet f = PieceAt(by_ramp, sigma).InTime(sigma);
+  UnitJet f = PieceAt(by_ramp, sigma).At<false>(sigma);
   if (sigma < first_) {
-    const UnitJet bump = PieceAt(pieces, sigma).InTime(sigma);
+    const UnitJet bump = PieceAt(pieces, sigma).At<false>(sigma);
     f.value += bump_by_ramp_ * bump.value;
     f.s += bump_by_ramp_ * bump.s;
     f.ss += bump_by_ramp_ * bump.ss;

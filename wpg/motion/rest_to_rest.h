@@ -70,8 +70,8 @@ class RestToRest {
     double center_shift, width_shift;  // their derivatives with respect to shift_fraction
     std::vector<Coefficient> coefficients;
 
+    template <bool with_theta = true>  // false: without derivatives with respect to θ
     UnitJet At(double sigma) const;
-    UnitJet InTime(double sigma) const;  // the same without derivatives with respect to θ
     UnitJet ByShift(double sigma) const;
   };
 

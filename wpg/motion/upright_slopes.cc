@@ -66,8 +66,7 @@ void WaistGradient::AddTo(const RobotModel& robot, const WalkJet& jet, const Pos
   by->second.segment<2>(kComX) += by_a.head<2>();
   by->value[kWaistYaw] +=
       displacement[2] - by_d.dot(carried) -
-      com_x * (y_W.dot(by_w) - rate * x_W.dot(by_w1) -
-               (yaw2 * x_W + rate * rate * y_W).dot(by_a));
+      com_x * (y_W.dot(by_w) - rate * x_W.dot(by_w1) - (yaw2 * x_W + rate * rate * y_W).dot(by_a));
   by->first[kWaistYaw] += velocity[2] - by_v.dot(carried) - by_a.dot(z.cross(w1)) -
                           com_x * (y_W.dot(by_w1) - 2.0 * rate * x_W.dot(by_a));
   by->second[kWaistYaw] += acceleration[2] - by_a.dot(carried) - com_x * y_W.dot(by_a);
@@ -77,8 +76,7 @@ void AddSoleAcceleration(Side side, const WalkJet& jet, const Posture& posture,
                          const RobotDynamics& dynamics, const Vector6d& by_sole, WalkJet* by) {
   const Vector3d z = Vector3d::UnitZ();
   const int foot = FootIndex(side);
-  const Vector3d p =
-      posture.X_WSole[static_cast<size_t>(Index(side))].translation() - dynamics.O();
+  const Vector3d p = posture.X_WSole[static_cast<size_t>(Index(side))].translation() - dynamics.O();
   const Vector3d v = jet.first.segment<3>(foot), by_a = by_sole.tail<3>();
   const Vector3d turned = by_a.cross(z);
   by->value.segment<3>(foot) -= jet.second[foot + 3] * turned;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wpg/elementary.h"
 #include "wpg/robot/leg_ik.h"
 #include "wpg/robot/leg_neighbourhood.h"
 
@@ -26,7 +27,7 @@ class Way {
       : shift_(to.translation() - from.translation()), lever_(about - from.translation()) {
     const Eigen::Matrix3d R = to.linear() * from.linear().transpose();
     const Vector3d twice(R(2, 1) - R(1, 2), R(0, 2) - R(2, 0), R(1, 0) - R(0, 1));
-    const double sine = 0.5 * twice.norm(), angle = std::atan2(sine, 0.5 * (R.trace() - 1.0));
+    const double sine = 0.5 * twice.norm(), angle = Atan2(sine, 0.5 * (R.trace() - 1.0));
     turn_ = sine > 1e-9 ? Vector3d(0.5 * angle / sine * twice) : Vector3d(0.5 * twice);
   }
   Vector6d At(double s) const {

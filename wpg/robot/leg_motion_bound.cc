@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wpg/elementary.h"
 #include "wpg/robot/bootstrap.h"
 
 namespace halfstep {
@@ -91,7 +92,7 @@ class AnkleBound {
  public:
   AnkleBound(const Geometry& geometry, const Knee& knee, const LegDemand& demand, double h)
       : g_(geometry), knee_(knee), demand_(demand), h_(h) {
-    second_ = std::hypot(demand.horizontal, demand.vertical);
+    second_ = Hypot(demand.horizontal, demand.vertical);
     rate_ = g_.w_rate.norm() + h * second_;
     distance_ = g_.w.norm() + h * rate_;
     sigma_ = g_.n.norm();
@@ -99,7 +100,7 @@ class AnkleBound {
     r_ = g_.c.norm();
     // Seen from the shank, c turns about k: (b·c, b·(k×c)) keeps its norm.
     const double bc = std::abs(g_.b.dot(g_.c)), bkc = std::abs(g_.b.dot(g_.kc));
-    const double b_most = std::hypot(bc, bkc), turn = h * knee.speed * b_most;
+    const double b_most = Hypot(bc, bkc), turn = h * knee.speed * b_most;
     bc_ = std::min(b_most, bc + turn);
     bkc_ = std::min(b_most, bkc + turn);
   }

@@ -1,7 +1,6 @@
 #include "wpg/robot/met_leg.h"
 
 #include <Eigen/QR>
-#include <cmath>
 
 #include "wpg/robot/leg_ik.h"
 
@@ -30,7 +29,8 @@ Leg WithAxesThatMeet(const Leg& leg) {
     for (size_t i = first; i < first + count; ++i) {
       axes.push_back(at.axis_B[i]);
       points.push_back(at.point_B[i]);
-      weights.push_back(0.01 + std::pow(at.axis_B[i].dot(at.axis_B[3]), 2));
+      const double along = at.axis_B[i].dot(at.axis_B[3]);
+      weights.push_back(0.01 + along * along);
     }
     return NearestPoint(axes, points, weights);
   };

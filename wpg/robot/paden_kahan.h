@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 #include <cmath>
 
+#include "wpg/elementary.h"
+
 namespace halfstep {
 
 /// A rotation angle as (cos, sin): composed and applied without trigonometric calls.
@@ -11,14 +13,17 @@ struct Turn {
   double sin = 0.0;  ///< of the angle
 
   /// From an angle [rad].
-  static Turn FromAngle(double angle) { return {std::cos(angle), std::sin(angle)}; }
+  static Turn FromAngle(double angle) {
+    const SineCosine both = SinCos(angle);
+    return {both.cos, both.sin};
+  }
   /// (x, y) need not be normalized; (0, 0), where every angle will do, gives 0.
   static Turn FromDirection(double x, double y) {
     const double norm = std::sqrt(x * x + y * y);
     return norm > 0 ? Turn{x / norm, y / norm} : Turn{};
   }
-  double angle() const { return std::atan2(sin, cos); }  ///< [rad] in (−π, π]
-  Turn Inverse() const { return {cos, -sin}; }           ///< by the negative angle
+  double angle() const { return Atan2(sin, cos); }  ///< [rad] in (−π, π]
+  Turn Inverse() const { return {cos, -sin}; }      ///< by the negative angle
   /// By the sum of both angles.
   Turn operator*(const Turn& other) const {
     return {cos * other.cos - sin * other.sin, sin * other.cos + cos * other.sin};

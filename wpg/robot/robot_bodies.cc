@@ -1,7 +1,6 @@
 #include "wpg/robot/robot_bodies.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <numbers>
@@ -10,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "wpg/elementary.h"
 #include "wpg/files/mesh_file.h"
 #include "wpg/files/text.h"
 #include "wpg/geometry/convex_parts.h"
@@ -97,11 +97,11 @@ std::string MeshPath(const std::string& mesh, const std::string& urdf_file,
 // Hull of the prism of 32 sides around a cylinder along z: at most 0.5 % of the radius larger.
 ConvexBody PrismAround(double radius, double length) {
   constexpr int kSides = 32;
-  const double outer = radius / std::cos(std::numbers::pi / kSides);
+  const double outer = radius / Cos(std::numbers::pi / kSides);
   Eigen::Matrix3Xd points(3, 2 * kSides);
   for (int i = 0; i < kSides; ++i) {
     const double angle = 2 * std::numbers::pi * i / kSides;
-    const double x = outer * std::cos(angle), y = outer * std::sin(angle);
+    const double x = outer * Cos(angle), y = outer * Sin(angle);
     points.col(2 * i) = Vector3d(x, y, length / 2);
     points.col(2 * i + 1) = Vector3d(x, y, -length / 2);
   }

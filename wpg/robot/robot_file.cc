@@ -6,9 +6,11 @@
 #include <numbers>
 #include <optional>
 
+#include "wpg/elementary.h"
 #include "wpg/files/number_text.h"
 #include "wpg/files/text.h"
 #include "wpg/files/yaml_fields.h"
+#include "wpg/geometry/rotation.h"
 #include "wpg/nth.h"
 #include "wpg/robot/link_anchors.h"
 #include "wpg/robot/robot_bodies.h"
@@ -140,11 +142,11 @@ class Builder {
     const Isometry3d left = LegForwardKinematics(model_.legs[0], model_.legs[0].standing_q)[6];
     const Isometry3d right = LegForwardKinematics(model_.legs[1], model_.legs[1].standing_q)[6];
     for (const auto& [name, X] : {std::pair{"left", left}, std::pair{"right", right}}) {
-      const double tilt = std::hypot(X(0, 2), X(1, 2)), yaw = std::atan2(X(1, 0), X(0, 0));
+      const double tilt = Hypot(X(0, 2), X(1, 2)), yaw = Atan2(X(1, 0), X(0, 0));
       if (tilt > kStanding || X(2, 2) < 0) {
         fields_.Complain("standing_posture_deg",
                          std::string("the ") + name + " sole is not horizontal: it tilts by " +
-                             Formatted("%.4g", std::atan2(tilt, X(2, 2)) / kDegree) + " deg");
+                             Formatted("%.4g", Atan2(tilt, X(2, 2)) / kDegree) + " deg");
       } else if (std::abs(yaw) > kStanding) {
         fields_.Complain("standing_posture_deg", std::string("the ") + name +
                                                      " sole does not point forward: yaw " +
@@ -255,10 +257,7 @@ class Builder {
 
 Eigen::Matrix3d RotationOf(const std::vector<double>& rpy) {
   if (rpy.empty()) return Eigen::Matrix3d::Identity();
-  return (Eigen::AngleAxisd(rpy[2], Vector3d::UnitZ()) *
-          Eigen::AngleAxisd(rpy[1], Vector3d::UnitY()) *
-          Eigen::AngleAxisd(rpy[0], Vector3d::UnitX()))
-      .toRotationMatrix();
+  return RollPitchYaw(rpy[0], rpy[1], rpy[2]);
 }
 
 RobotModel LoadRobot(const std::string& yaml_path) {

@@ -204,7 +204,8 @@ std::optional<Leg> BuildLeg(const UrdfTree& urdf, const LegRequest& request,
   std::optional<Leg> leg = LegGeometry(urdf, request, indices, complaints);
   if (!leg) return std::nullopt;
   const double length = StretchedLength(*leg);
-  if (std::abs(LegJacobian(*leg, leg->standing_q).determinant()) < 1e-4 * std::pow(length, 3)) {
+  if (std::abs(LegJacobian(*leg, leg->standing_q).determinant()) <
+      1e-4 * length * length * length) {
     LegChecker(urdf, indices, complaints)
         .Complain(3,
                   "the leg is singular in the standing posture (knee stretched, or hip or "

@@ -1,11 +1,11 @@
 #include "wpg/robot/sole_outline.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numbers>
 #include <vector>
 
+#include "wpg/elementary.h"
 #include "wpg/geometry/planar_hull.h"
 #include "wpg/geometry/support_polygon.h"
 #include "wpg/nth.h"
@@ -57,8 +57,8 @@ void AddBody(const ConvexBody& body, const Eigen::Isometry3d& X_SoleBody,
     constexpr int kSides = 64;  // of a polygon around the disc of radius `around`
     for (int k = 0; around > 0 && k < kSides; ++k) {
       const double angle = 2 * std::numbers::pi * k / kSides;
-      points->push_back(p + around / std::cos(std::numbers::pi / kSides) *
-                                Eigen::Vector2d(std::cos(angle), std::sin(angle)));
+      points->push_back(p + around / Cos(std::numbers::pi / kSides) *
+                                Eigen::Vector2d(Cos(angle), Sin(angle)));
     }
   }
 }

@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "wpg/files/regular_file.h"
+#include "wpg/geometry/rotation.h"
 #include "wpg/nth.h"
 
 namespace halfstep {
@@ -238,7 +239,7 @@ std::vector<Isometry3d> UrdfTree::LinkPoses(const std::vector<double>& q) const 
     const UrdfJoint& joint = Nth(joints, j);
     X[i] = Nth(X, joint.parent) * joint.X_ParentChild;
     if (joint.kind == UrdfJoint::Kind::kRevolute) {
-      X[i].rotate(Eigen::AngleAxisd(Nth(q, j), joint.axis));
+      X[i].rotate(AxisRotation(Nth(q, j), joint.axis));
     }
   }
   return X;

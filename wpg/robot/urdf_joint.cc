@@ -1,6 +1,6 @@
 #include "wpg/robot/urdf_joint.h"
 
-#include <cmath>
+#include "wpg/elementary.h"
 
 namespace halfstep {
 namespace {
@@ -24,7 +24,7 @@ void CheckAxis(const UrdfElements& elements, const TiXmlElement& joint, const st
   const TiXmlElement* axis = joint.FirstChildElement("axis");
   if (axis == nullptr) return;
   const auto xyz = elements.Numbers(*axis, "xyz", 3);
-  if (xyz && std::hypot((*xyz)[0], (*xyz)[1], (*xyz)[2]) < 1e-6) {
+  if (xyz && Hypot(Hypot((*xyz)[0], (*xyz)[1]), (*xyz)[2]) < 1e-6) {
     elements.Complain(*axis, name, "the axis has no direction: " + AttributeOf(*axis, "xyz"));
   }
 }
