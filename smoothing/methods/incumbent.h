@@ -11,9 +11,9 @@
 namespace halfstep {
 
 /// Keeps the best point of the homotopy that was proved, the incumbent. A candidate replaces it
-/// only if it costs less and that was proved. Where one is refused, the steps around the refusal stay
-/// as they are in the incumbent, and the rest is tried again. So whatever proposes candidates may
-/// stop at any moment.
+/// only if it costs less and that was proved. Where one is refused, the steps around the refusal
+/// stay as they are in the incumbent, and the rest is tried again. So whatever proposes candidates
+/// may stop at any moment.
 class Incumbent {
  public:
   /// What the incumbent is compared by, and where it may move.
@@ -37,8 +37,8 @@ class Incumbent {
             MarginEvaluator::Scratch* scratch);
 
   /// Moves the incumbent to a candidate where that is proved, trying at most `attempts` ≥ 1 points.
-  /// Steps with half-steps that are `held` stay as they are from the first point on. Returns how far
-  /// it moved, ∈ [0, 1], as a mean over the half-steps.
+  /// Steps with half-steps that are `held` stay as they are from the first point on. Returns how
+  /// far it moved, ∈ [0, 1], as a mean over the half-steps.
   double Toward(const HomotopyParameters& candidate, int attempts,
                 const std::vector<bool>& held = {});
 

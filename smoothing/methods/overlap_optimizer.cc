@@ -131,8 +131,7 @@ class Optimization {
     if (monitor_.stopped()) end_.NoteCut(monitor_);
     std::string message = end_.Sentence();
     if (Safest() && !std::isfinite(monitor_.cost())) {
-      message +=
-          Formatted("; no walk of at most %f s was proved, the dichotomy's is kept", limit);
+      message += Formatted("; no walk of at most %f s was proved, the dichotomy's is kept", limit);
     }
     return monitor_.Finish(end_.Ending(), message);
   }
@@ -141,8 +140,7 @@ class Optimization {
     ProgramOptions sharp = options_.program;
     sharp.watch.row_per_instant = true;
     sharp.watch.sharpness = options_.tuning.sharpness;
-    OverlapProgram program(problem_.sequence(), problem_.evaluator(), sharp, 0.0,
-                           problem_.fixed());
+    OverlapProgram program(problem_.sequence(), problem_.evaluator(), sharp, 0.0, problem_.fixed());
     program.watched().SetWorkers(monitor_.workers());
     program.watched().SetWork(&monitor_.scratch()->work);
     program.watched().Focus(SuperposedWalk(problem_.sequence(), monitor_.incumbent()),

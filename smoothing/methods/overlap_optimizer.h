@@ -17,7 +17,7 @@ namespace halfstep {
 struct OptimizerOptions {
   std::string solver = "ipopt";  ///< one of opt::SolverNames(), or the name of `own_solver`
   std::shared_ptr<const opt::Solver> own_solver = nullptr;  ///< where set: in its place
-  ProgramOptions program;  ///< what is solved, and over which parameters
+  ProgramOptions program;                     ///< what is solved, and over which parameters
   SearchStart start = SearchStart::kTypical;  ///< where rounds begin; `safest`: at the dichotomy's
   /// A feasible walk to begin at, in place of `start` and of the planned motion.
   std::optional<HomotopyParameters> begin = std::nullopt;

@@ -86,9 +86,7 @@ class CurveSolves {
   opt::Ending weakest() const { return weakest_; }  // of the solves that found something
 
  private:
-  double Share() const {
-    return monitor_.EffortLeft() / std::max(1.0, count_ - done_);
-  }
+  double Share() const { return monitor_.EffortLeft() / std::max(1.0, count_ - done_); }
 
   const WalkProblem& problem_;
   const OptimizerOptions& options_;

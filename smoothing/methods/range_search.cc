@@ -39,9 +39,10 @@ void ResetRows(const SearchTuning& tuning, double sharpness, double more,
   if (by_instant) watched->SetReserves(tuning.reserve * more);
 }
 
-// After an end that was proved but for `refusals`, or was not `tried`. Rows by instant stay as sharp
-// as they are, and keep more or less in reserve where that is needed. Rows by half-step grow sharper
-// by a factor, up to a bound, where all is proved, and else softer, so that more is left in reserve.
+// After an end that was proved but for `refusals`, or was not `tried`. Rows by instant stay as
+// sharp as they are, and keep more or less in reserve where that is needed. Rows by half-step grow
+// sharper by a factor, up to a bound, where all is proved, and else softer, so that more is left in
+// reserve.
 void AdaptRows(bool tried, const std::vector<Margin>& refusals, WatchedInstants* watched) {
   constexpr double kSharpen = 1.5, kSoften = 0.75, kSharpest = 3000.0;
   if (watched->row_per_instant()) {
@@ -96,8 +97,8 @@ bool RangeSearch::From(const HomotopyParameters& start, double more, double effo
   dearer_ = 1.0;
   const OverlapVariables& variables = program_.variables();
   Eigen::VectorXd x = program_.ToVariables(start);
-  x.head(variables.size()) = x.head(variables.size()).cwiseMax(variables.lower()).cwiseMin(
-      variables.upper());
+  x.head(variables.size()) =
+      x.head(variables.size()).cwiseMax(variables.lower()).cwiseMin(variables.upper());
   SearchPace pace(options_.rounds, tuning.poor_rounds);
   int repairs = 0;
   while (!pace.over()) {
@@ -171,8 +172,8 @@ bool RangeSearch::Solve(Eigen::VectorXd* x, bool repair) {
   end_.Note(solution);
   if (solution.ending == opt::Ending::kInvalidInput || solution.x.size() != x->size()) return false;
   // Cheap and nearly feasible is a better place to go on from than the best feasible one.
-  const bool near = solution.final_x.size() == x->size() &&
-                    solution.final_violation < options_.tuning.hopeless;
+  const bool near =
+      solution.final_x.size() == x->size() && solution.final_violation < options_.tuning.hopeless;
   *x = near ? solution.final_x : solution.x;
   end_cost_ = near ? solution.final_cost : solution.cost;
   end_violation_ = near ? solution.final_violation : solution.max_violation;
@@ -191,8 +192,8 @@ bool RangeSearch::Try(const Eigen::VectorXd& x) {
   for (const double slack : least) held_.push_back(slack < level + options_.tuning.promising);
   const auto first = held_.begin() + range_.proved_first,
              last = held_.begin() + range_.proved_last + 1;
-  const bool some = Safest() ? std::find(first, last, true) == last
-                             : std::find(first, last, false) != last;
+  const bool some =
+      Safest() ? std::find(first, last, true) == last : std::find(first, last, false) != last;
   const bool tried = some && end_violation_ <= options_.tuning.hopeless;
   const double lambda = tried ? path_.Toward(end, options_.tuning.attempts, held_) : 0.0;
   SmoothingResult& result = monitor_.result();

@@ -69,11 +69,11 @@ class RangeSearch {
   StretchProofs proofs_;
   double begun_;  // what the range's own parameters cost
   Incumbent path_;
-  opt::Solution solution_;  // of the last round
+  opt::Solution solution_;                       // of the last round
   double end_cost_ = 0.0, end_violation_ = 0.0;  // where it ended
   std::vector<bool> held_;  // half-steps at whose last end samples are violated
-  int violated_ = 0;       // rounds in a row whose ends were violated
-  double dearer_ = 1.0;    // how much more violations cost
+  int violated_ = 0;        // rounds in a row whose ends were violated
+  double dearer_ = 1.0;     // how much more violations cost
   double until_ = 0.0;      // effort of the monitor
 };
 

@@ -10,12 +10,12 @@ class SmoothingMonitor;
 
 /// What is known when a search by a solver, in rounds from several starts, is over.
 struct SearchEnding {
-  std::string solver;                           ///< by its name
-  opt::Ending cut = opt::Ending::kNotRun;       ///< what cut it off; kNotRun: nothing
-  std::string why_cut = {};                     ///< the same in words
-  bool exhausted = false;                       ///< all rounds from a start were used
-  bool called = false;                          ///< the solver, at least once
-  bool all_failed = true;                       ///< every solve ended kFailed
+  std::string solver;                      ///< by its name
+  opt::Ending cut = opt::Ending::kNotRun;  ///< what cut it off; kNotRun: nothing
+  std::string why_cut = {};                ///< the same in words
+  bool exhausted = false;                  ///< all rounds from a start were used
+  bool called = false;                     ///< the solver, at least once
+  bool all_failed = true;                  ///< every solve ended kFailed
   bool own = false;  ///< the result comes from the search, and beats what it began with
   opt::Ending last_ending = opt::Ending::kNotRun;  ///< of the last solve
   std::string last_message = {};                   ///< the solver's own words about the last solve

@@ -14,8 +14,6 @@ namespace {
 
 // Half-steps beside a window on which what it gains may bear.
 constexpr int kBeside = 4;
-// Instants a half-step where it is asked how long half-steps have to last.
-constexpr int kCoarseInstants = 8;
 
 bool Any(const std::vector<bool>& flags, int first, int last) {
   const int n = static_cast<int>(flags.size());
@@ -47,15 +45,9 @@ class Stages {
   int size() const { return problem_.sequence().size(); }
 
   HomotopyParameters Typical(const WalkWindow& range, const TypicalForm* form) const {
-    ProgramOptions coarse = options_.program;
-    coarse.watch.range = {range.proved_first, range.proved_last};
-    coarse.watch.instants = kCoarseInstants;
-    coarse.watch.row_per_instant = false;
-    OverlapProgram program(range.problem.sequence(), problem_.evaluator(), coarse, 0.0,
-                           range.problem.fixed());
-    program.watched().SetWorkers(monitor_.workers());
-    program.watched().SetWork(&monitor_.scratch()->work);
-    return TypicalStart(program, problem_.robot(), form);
+    return TypicalStart(range.problem.sequence(),
+                        range.problem.Parameters(options_.program.parameters), problem_.robot(),
+                        form);
   }
 
   bool Whole(const RangeOptions& options) {
@@ -69,13 +61,12 @@ class Stages {
         &end_);
     monitor_.Adopt(*monitor_.accepted(), search.path().cost(), DurationOf(at_));
     if (!search.moves()) return true;
-    std::vector<HomotopyParameters> starts;
-    if (start_ == SearchStart::kTypical && !met_) {
-      starts.push_back(Typical(range, nullptr));
-      if (!search.From(starts.front(), 1.0, effort_)) return false;
-      if (!search.From(Typical(range, &TypicalForms().back()), 1.0, effort_)) return false;
-    } else if (!search.From(at_, 1.0, effort_)) {
-      return false;
+    std::vector<HomotopyParameters> starts = {at_};
+    if (start_ == SearchStart::kTypical && met_ == 0) {
+      starts = {Typical(range, nullptr), Typical(range, &TypicalForms().back()), problem_.Start()};
+    }
+    for (const HomotopyParameters& start : starts) {
+      if (!search.From(start, 1.0, effort_)) return false;
     }
     // Where rounds lead into what cannot be mended, the incumbent, which has come a part of the
     // way, is a place to set out from again.

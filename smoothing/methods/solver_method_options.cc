@@ -114,16 +114,15 @@ void DeclareSearch(Fields& fields, OptimizerOptions* o) {
        .min = 0,
        .max = 1000});
   fields.Integer("rounds", &o->rounds,
-                 {.meaning = "solves from each start, each looking closer",
-                  .min = 1,
-                  .max = 100});
+                 {.meaning = "solves from each start, each looking closer", .min = 1, .max = 100});
   fields.Boolean("windows", &o->windows,
                  {.meaning = "`halfstep/sqp` searches long walks in windows first"});
   std::string start(Name(o->start));
-  fields.Text("start", &start,
-              {.meaning = "where rounds begin: each half-step in the typical form of fast walks, "
-                          "the dichotomy's walk, which `safest` always takes, or the planned motion",
-               .choices = {"typical", "dichotomy", "planned"}});
+  fields.Text(
+      "start", &start,
+      {.meaning = "where rounds begin: each half-step in the typical form of fast walks, "
+                  "the dichotomy's walk, which `safest` always takes, or the planned motion",
+       .choices = {"typical", "dichotomy", "planned"}});
   for (SearchStart each : {SearchStart::kTypical, SearchStart::kDichotomy, SearchStart::kPlanned}) {
     if (start == Name(each)) o->start = each;
   }

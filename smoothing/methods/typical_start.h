@@ -3,7 +3,7 @@
 #include <span>
 #include <string_view>
 
-#include "smoothing/program/overlap_program.h"
+#include "smoothing/walk/parameter_table.h"
 #include "wpg/robot/robot_model.h"
 
 namespace halfstep {
@@ -30,11 +30,9 @@ std::span<const TypicalForm> TypicalForms();
 /// pass over something.
 const TypicalForm& FormOfStep(const HalfStepSequence& sequence, int step);
 
-/// A point of the program's variables near which fast walks are: each step in its typical form, or
-/// in `form` where that is not null, as far as the program moves its numbers and their ranges
-/// allow. Half-steps last longer, each by as much as the program's rows ask for at the instants
-/// that it watches, at most as planned. Nothing is proved of it.
-HomotopyParameters TypicalStart(const OverlapProgram& program, const RobotModel& robot,
-                                const TypicalForm* form = nullptr);
+/// A point near which fast walks are: each step in its typical form, or in `form` where that is not
+/// null, as far as the table's ranges allow; what is fixed stays. Nothing is proved of it.
+HomotopyParameters TypicalStart(const HalfStepSequence& sequence, const ParameterTable& table,
+                                const RobotModel& robot, const TypicalForm* form = nullptr);
 
 }  // namespace halfstep
