@@ -31,12 +31,15 @@ class Optimization {
         monitor_(monitor),
         end_{.solver = options.solver,
              .kept = options.begin ? "the walk is what it started from"
-                                   : "the walk is a dichotomy's"} {}
+                                   : "the walk is the planned motion"} {}
 
   SmoothingResult Run() {
     monitor_.LimitTo(options_.effort, options_.deadline);
     const HomotopyParameters begin = options_.begin.value_or(problem_.Start());
     if (!monitor_.BeginFeasibly(problem_, begin)) return monitor_.Refusal();
+    if (!Safest() && !Fastest()) {  // the monitor takes costs for durations
+      monitor_.Adopt(*monitor_.accepted(), CostAt(begin), DurationOf(begin));
+    }
     const SearchStart start = Safest() || options_.begin ? SearchStart::kDichotomy : options_.start;
     if (start == SearchStart::kDichotomy && !options_.begin) {
       TakeDichotomy(problem_.Start(), options_.tolerance);
@@ -58,6 +61,11 @@ class Optimization {
  private:
   bool Safest() const { return options_.program.kind == ProgramKind::kSafest; }
   bool Fastest() const { return options_.program.kind == ProgramKind::kFastest; }
+
+  // What a walk costs before the search; `safest` knows it only over the whole program.
+  double CostAt(const HomotopyParameters& walk) const {
+    return Safest() ? DurationOf(walk) : CostOf(problem_.sequence(), walk, options_.program);
+  }
 
   std::vector<SearchStage> StagesOf() const {
     if (options_.only) return {*options_.only};
@@ -96,11 +104,8 @@ class Optimization {
       iterate.effort += effort;
       monitor_.result().iterates.push_back(iterate);
     }
-    if (!Safest()) {
-      monitor_.Adopt(*found.accepted,
-                     CostOf(problem_.sequence(), found.parameters, options_.program),
-                     DurationOf(found.parameters));
-    }
+    monitor_.Adopt(*found.accepted, CostAt(found.parameters), DurationOf(found.parameters));
+    if (!options_.begin) end_.kept = "the walk is a dichotomy's";
     monitor_.result().junctions = found.junctions;
   }
 

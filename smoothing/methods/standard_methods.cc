@@ -96,7 +96,7 @@ SmoothingResult ByWindows(const WalkProblem& problem, const MethodOptions& optio
   OptimizerOptions& o = optimizer.options;
   // A curve is made of programs that belong to the whole walk, as `safest` does.
   if (optimizer.program == kPareto || o.program.kind == ProgramKind::kSafest) {
-    monitor.Begin(problem, problem.Start());
+    if (!monitor.BeginFeasibly(problem, problem.Start())) return monitor.Refusal();
     return monitor.Finish(opt::Ending::kInvalidInput,
                           "halfstep/horizon has no program `safest` or `pareto` (valid: fastest, "
                           "smooth); the walk is the planned one");
