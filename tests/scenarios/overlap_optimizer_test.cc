@@ -107,7 +107,6 @@ TEST_F(OptimizerTest, WithoutASearchItEndsWhereItBegan) {
   }
 }
 
-// Beside what it ends with, the effort of a run that is not cut off.
 TEST_F(OptimizerTest, WhereRoundsBeginIsTheCallersChoice) {
   const double planned = DurationOf(PlannedMotion(e_.sequence));
   for (const SearchStart start :
@@ -118,7 +117,7 @@ TEST_F(OptimizerTest, WhereRoundsBeginIsTheCallersChoice) {
     const SmoothingResult result =
         Smoothed(OptimizeOverlaps, ProblemOf(e_.sequence, test_), options);
     EXPECT_TRUE(HasOwnResult(result.ending)) << Name(start) << ": " << result.message;
-    EXPECT_LT(DurationOf(result.parameters), 0.7 * planned) << Name(start);
+    EXPECT_LT(DurationOf(result.parameters), 0.75 * planned) << Name(start);
   }
 }
 
