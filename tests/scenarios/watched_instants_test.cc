@@ -277,7 +277,7 @@ TEST_F(WatchedInstantsTest, WhatIsLookedAtIsCounted) {
   table.Evaluate(x, &values, &nonzeros);
   EXPECT_EQ(alone, (Work{.instants = instants, .derivatives = instants}));
   table.Focus(SuperposedWalk(e_.sequence, parameters), 0.01, 0.0);
-  EXPECT_GT(alone.instants, instants + DurationOf(parameters) / 0.01);
+  EXPECT_GT(alone.instants, instants + std::lround(DurationOf(parameters) / 0.01));
 
   Workers workers(3);
   WatchedInstants again(variables_, evaluator_, {.instants = 8});
