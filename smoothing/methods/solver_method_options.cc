@@ -171,7 +171,8 @@ std::string VariableNames(const ParameterChoice& choice) {
   for (const ParameterFamily family : AllParameterFamilies()) {
     const ParameterFamilyTraits& traits = Traits(family);
     if (traits.key.empty() || !choice.moves(family)) continue;
-    names += (names.empty() ? "" : "+") + std::string(traits.key);
+    if (!names.empty()) names += '+';
+    names += traits.key;
   }
   return names;
 }
