@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "smoothing/walk/parameter_families.h"
@@ -62,6 +63,8 @@ struct HomotopyParameter {
 
 /// Which parameters are meant; empty: all.
 using ParameterFilter = std::function<bool(const HomotopyParameter&)>;
+/// Rates along some parameters, each once.
+using ParameterRates = std::vector<std::pair<HomotopyParameter, double>>;
 
 /// Whether a junction leads from an up to a down half-step, or the other way.
 enum class JunctionKind { kUpDown, kDownUp };

@@ -28,9 +28,6 @@ struct WalkSensitivity {
   WalkJet jet;                  ///< per unit of the parameter
 };
 
-/// Rates along some parameters, each once.
-using ParameterRates = std::vector<std::pair<HomotopyParameter, double>>;
-
 /// The walk of a sequence at a point of the homotopy: a pure function of time. Half-step i starts
 /// at t_0 = 0, t_{i+1} = t_i + T_i − Δ_i, and every quantity is superposed in W:
 ///

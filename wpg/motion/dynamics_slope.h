@@ -17,9 +17,9 @@ struct DynamicsTangent {
 
 /// The derivative of RobotDynamics along one tangent: of each leg link's screw and force, of the
 /// joints' accelerations, and of what the floor gives. Exact, by one sweep from the waist to the
-/// soles. Where one number of what the floor gives is asked for along many tangents, ContactGradient
-/// is faster. About the dynamics' O, which is held where it is. Source: wpg/README.md, "Dynamics of
-/// the whole robot".
+/// soles. Where one number of what the floor gives is asked for along many tangents,
+/// ContactGradient is faster. About the dynamics' O, which is held where it is. Source:
+/// wpg/README.md, "Dynamics of the whole robot".
 class DynamicsSlope {
  public:
   /// Derivatives of one link's joint screw and of the force that moves it.
