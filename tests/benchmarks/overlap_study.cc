@@ -233,8 +233,8 @@ void Reach(const std::string& what, const std::string& method, double effort) {
       "%6.3f s (CPU %6.3f s), to 1 %% %6.3f s (CPU %6.3f s); %ld instants, %zu candidates, %ld "
       "refused\n",
       what.c_str(), method.c_str(), e.sequence.size(), start, dichotomy, end, r.wall, own,
-      TimeToWithin(r, end, 0.05), to(0.05), TimeToWithin(r, end, 0.01), to(0.01), r.work.evaluated(),
-      r.iterates.size(), r.raw_infeasible);
+      TimeToWithin(r, end, 0.05), to(0.05), TimeToWithin(r, end, 0.01), to(0.01),
+      r.work.evaluated(), r.iterates.size(), r.raw_infeasible);
 }
 
 // What an iteration costs over n half-steps.

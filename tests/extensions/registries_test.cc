@@ -85,8 +85,7 @@ TEST(OwnSolver, IsAMethod) {
   EXPECT_EQ(methods.own_solvers().size(), 1u);
   EXPECT_EQ(std::ranges::count(methods.Names(), "mine/stay"), 1);
   const Experiment experiment = Prepare(WithOptions(
-      {{"smoothing.methods", "[mine/stay]"}, {"smoothing.optimizer.start", "dichotomy"}},
-      methods));
+      {{"smoothing.methods", "[mine/stay]"}, {"smoothing.optimizer.start", "dichotomy"}}, methods));
   SmoothingMonitor monitor;
   const SmoothingResult result =
       methods.Find("mine/stay")

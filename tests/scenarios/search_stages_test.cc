@@ -44,9 +44,8 @@ class StagesTest : public testing::Test {
   Found Run(const WalkProblem& problem, const std::vector<SearchStage>& stages,
             double effort = kNoLimit, SearchStart start = SearchStart::kTypical) const {
     Found found;
-    SmoothingMonitor monitor({.on_incumbent = [&found](const HomotopyParameters& p) {
-      found.incumbents.push_back(p);
-    }});
+    SmoothingMonitor monitor(
+        {.on_incumbent = [&found](const HomotopyParameters& p) { found.incumbents.push_back(p); }});
     EXPECT_TRUE(monitor.BeginFeasibly(problem, problem.Start()));
     SearchEnding ending{.solver = "halfstep/sqp"};
     found.own = RunStages(problem, stages, start, BySqp({.heights = true, .durations = true}),

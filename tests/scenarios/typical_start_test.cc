@@ -74,9 +74,9 @@ TEST_F(TypicalStartTest, FormsAreScaledToTheRobot) {
 
 TEST_F(TypicalStartTest, WhatIsFixedStays) {
   using Family = HomotopyParameter::Family;
-  const HomotopyParameters start = Typical(
-      Everything(),
-      {{{Family::kDuration, 3}, 1.9}, {{Family::kHeightScale, 1}, 0.7}, {{Family::kOverlap, 5}, 0.1}});
+  const HomotopyParameters start = Typical(Everything(), {{{Family::kDuration, 3}, 1.9},
+                                                          {{Family::kHeightScale, 1}, 0.7},
+                                                          {{Family::kOverlap, 5}, 0.1}});
   EXPECT_EQ(start.durations[3], 1.9);
   EXPECT_EQ(start.height_scales[1], 0.7);
   EXPECT_EQ(start.overlaps[5], 0.1);

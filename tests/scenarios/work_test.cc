@@ -110,8 +110,8 @@ TEST_F(WorkTest, TheClockEndsASearchAsADeadline) {
   MethodOptions options = With(1e6);
   OptimizerOptions& optimizer = options.Edit(OptimizerGroup()).options;
   optimizer.deadline = 1.0 + 5.0 * *before.time_to_first_improvement;
-  const auto end = std::chrono::steady_clock::now() +
-                   std::chrono::duration<double>(optimizer.deadline + 1.0);
+  const auto end =
+      std::chrono::steady_clock::now() + std::chrono::duration<double>(optimizer.deadline + 1.0);
   const double planned = DurationOf(PlannedMotion(e_.sequence));
   const auto wait = [&](const HomotopyParameters& walk) {
     if (DurationOf(walk) < planned - 0.1) std::this_thread::sleep_until(end);
