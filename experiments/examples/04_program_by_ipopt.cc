@@ -18,7 +18,7 @@ int main() {
   }
   SmoothingMonitor monitor;
   const SmoothingResult result =
-      Methods::Standard().Find(solver).Smooth(problem, OptionsOf(config), monitor);
+      Methods::Standard().Find(solver).Smooth(problem, config.smoothing.options, monitor);
   std::printf("%s: %s\n%.3f s, %s\n", solver.c_str(), result.message.c_str(), result.cost,
               std::string(Name(result.evidence)).c_str());
 }

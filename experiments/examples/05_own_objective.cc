@@ -38,7 +38,7 @@ int main() {
     const WalkProblem problem = ProblemOf(Prepare(config));
     SmoothingMonitor monitor;
     const SmoothingResult result =
-        methods.Find("halfstep/sqp").Smooth(problem, OptionsOf(config), monitor);
+        methods.Find("halfstep/sqp").Smooth(problem, config.smoothing.options, monitor);
     const SuperposedWalk walk(problem.sequence(), result.parameters);
     std::printf("weight %s s/m: %.3f s, feet lifted by %.3f m in all\n", weight, walk.duration(),
                 Lift().Evaluate(walk, nullptr));

@@ -39,7 +39,7 @@ int main(int argc, char** argv) {
   const WalkProblem problem = ProblemOf(Prepare(config));
   SmoothingMonitor monitor;
   const SmoothingResult result =
-      methods.Find("halfstep/sqp").Smooth(problem, OptionsOf(config), monitor);
+      methods.Find("halfstep/sqp").Smooth(problem, config.smoothing.options, monitor);
   const SuperposedWalk walk(problem.sequence(), result.parameters);
   double fastest = 0.0;
   for (double t = 0.0; t < walk.duration(); t += 0.001) {

@@ -70,7 +70,7 @@ py::dict ResultOf(const std::shared_ptr<const WalkSetting>& setting, const std::
   dict["judged_by"] = std::string(Name(run.result.evidence));
   dict["cost"] = run.result.cost;
   dict["wall"] = run.result.wall;
-  dict["instants"] = run.result.instants;
+  dict["instants"] = run.result.work.evaluated();
   dict["walk"] =
       PlacedWalk{setting, SuperposedWalk(setting->problem.sequence(), run.result.parameters)};
   dict["iterates"] = ToPython(IteratesCsv(run));
@@ -93,7 +93,7 @@ py::dict Smooth(const Toolbox& tools, const PlacedExperiment& placed, const std:
   const Smoother& smoother = tools.methods.Find(method);
   const ExperimentConfig config =
       text.empty() ? placed.config : ParseConfig(placed.path, text, {}, tools);
-  const MethodOptions options = OptionsOf(config);
+  const MethodOptions options = config.smoothing.options;
   SmoothingResult result;
   CallLong(progress, [&](const LongCallHooks& hooks) {
     SmoothingMonitor monitor({.progress = [&](double done) { hooks.progress(method, done); },

@@ -27,7 +27,7 @@ SmoothingMonitor& SmoothingTask::monitor() const {
 }
 
 double SmoothingTask::remaining() const {
-  return stopped() ? 0.0 : std::max(0.0, monitor_->Remaining());
+  return stopped() ? 0.0 : std::max(0.0, monitor_->deadline() - monitor_->Seconds());
 }
 
 HomotopyParameters SmoothingTask::incumbent() const { return monitor().incumbent(); }
@@ -58,7 +58,8 @@ class PythonSmoother : public Smoother {
 
   SmoothingResult Smooth(const WalkProblem& problem, const MethodOptions& options,
                          SmoothingMonitor& monitor) const override {
-    monitor.LimitTo(options.Get(OptimizerGroup()).options.deadline);
+    const OptimizerOptions limits = options.Get(OptimizerGroup()).options;
+    monitor.LimitTo(limits.effort, limits.deadline);
     if (!monitor.BeginFeasibly(problem, problem.Start())) return monitor.Refusal();
     const std::string failure = Call(problem, options, &monitor);
     if (monitor.stopped()) {

@@ -45,7 +45,7 @@ MethodRun PlannedRun(const WalkProblem& problem, const std::stop_token& stop, Wo
   run.result.parameters = walk.parameters();
   run.result.cost = walk.duration();
   run.result.evidence = problem.test().evidence();
-  run.result.instants = scratch.instants;
+  run.result.work = scratch.work;
   run.result.collision_queries = scratch.bodies.queries;
   run.result.feasible = answer.verdict == Verdict::kFeasible;
   if (answer.stopped) {
@@ -135,7 +135,7 @@ MethodRun ExperimentRun::RunMethod(const std::string& name, const RunHooks& hook
                             .stop = hooks.stop,
                             .stop_proof = hooks.stop_step,
                             .workers = workers_});
-  MethodOptions options = OptionsOf(config_);
+  MethodOptions options = config_.smoothing.options;
   options.Edit(GivenWalkGroup()) = given_;
   run.result = RunSmoother(config_.smoothing.known.Find(name), *problem_, options, monitor);
   const SuperposedWalk walk(experiment_->sequence, run.result.parameters);

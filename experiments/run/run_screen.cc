@@ -179,7 +179,7 @@ std::string RunTable(const Experiment& experiment, const WalkProblem& problem,
     if (run.result.junctions.empty()) continue;
     out << "\n"
         << run.method
-        << Formatted(" (%.2f s, %ld instants)\n", run.result.wall, run.result.instants)
+        << Formatted(" (effort %.2f, %.2f s)\n", run.result.work.effort(), run.result.wall)
         << Holders(evaluator, run, JunctionKind::kUpDown)
         << Holders(evaluator, run, JunctionKind::kDownUp) << Prices(evaluator, run) << Curve(run)
         << "  " << run.result.message << "\n";

@@ -38,10 +38,4 @@ std::shared_ptr<Workers> WorkersOf(const ExperimentConfig& config) {
   return std::make_shared<Workers>(config.smoothing.threads);
 }
 
-MethodOptions OptionsOf(const ExperimentConfig& config) {
-  MethodOptions options = config.smoothing.options;
-  options.Edit(OptimizerGroup()).options.seed = static_cast<unsigned>(config.seed);
-  return options;
-}
-
 }  // namespace halfstep

@@ -16,7 +16,4 @@ WalkProblem ProblemOf(const Experiment& experiment);
 /// The threads that its methods and proofs use beside the caller's; null: none.
 std::shared_ptr<Workers> WorkersOf(const ExperimentConfig& config);
 
-/// The options of its methods, as the config has them, with its seed.
-MethodOptions OptionsOf(const ExperimentConfig& config);
-
 }  // namespace halfstep

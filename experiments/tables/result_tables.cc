@@ -206,7 +206,7 @@ void AddSummaryRow(const MarginEvaluator& evaluator, const std::vector<MethodRun
   next().Cell(worst.value);
   next().Cell(Name(worst.family));
   next().Cell(static_cast<long>(result.iterates.size()));
-  next().Cell(result.instants);
+  next().Cell(result.work.evaluated());
   next().Cell(result.collision_queries);
   next().Cell(result.wall);
   next().Cell(result.time_to_first_improvement);

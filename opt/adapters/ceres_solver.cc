@@ -18,6 +18,9 @@
 namespace halfstep::opt {
 namespace {
 
+// Of each Jacobian: it is only multiplied by, and the update of the (L-)BFGS matrix is as cheap.
+constexpr int kCeresPasses = 2;
+
 /// Ceres writes warnings to standard error through glog. While any of these lives, it does not.
 class QuietGlog {
  public:
@@ -156,6 +159,7 @@ Summary MinimizeInner(const InnerOptions& options, const AugmentedLagrangian& la
 }
 
 SolverEnd RunCeres(SolveMonitor& monitor, const Eigen::VectorXd& start) {
+  monitor.EstimateAlgebra(kCeresPasses);
   constexpr double kOffTheBounds = 1e-3;  // of the width; a start on a bound would stay there
   constexpr int kMostFailures = 5;        // inner minimizations without any step, in a row
   const Problem& problem = monitor.problem();

@@ -18,6 +18,9 @@
 namespace halfstep::opt {
 namespace {
 
+// Of each Jacobian: Ipopt factorizes, once an iteration, a symmetric matrix that holds it and
+// fills.
+constexpr int kIpoptPasses = 10;
 constexpr double kIpoptInfinity = 2e19;  // beyond nlp_upper_bound_inf = 1e19
 
 /// MUMPS is not thread-safe: one solve at a time in the whole process.
@@ -213,6 +216,7 @@ SolverEnd Translate(Ipopt::ApplicationReturnStatus status, Eigen::VectorXd x) {
 }
 
 SolverEnd RunIpopt(SolveMonitor& monitor, const Eigen::VectorXd& start) {
+  monitor.EstimateAlgebra(kIpoptPasses);
   std::unique_lock lock(OneSolve(), std::defer_lock);
   while (!lock.try_lock_for(std::chrono::milliseconds(5))) {
     if (!monitor.MayGoOn()) return {Ending::kInterrupted, "Stopped in the queue.", start};

@@ -158,6 +158,7 @@ class Barrier {
     identity.setIdentity();
     K += SparseMatrix(identity * diagonal.asDiagonal());
     const Eigen::SimplicialLDLT<SparseMatrix> factors(K);
+    monitor_.CountAlgebra(factors.matrixL().nestedExpression().nonZeros());
     if (factors.info() != Eigen::Success) return {};
     VectorXd d = factors.solve(-g);
     if (!hessian_.empty()) {

@@ -1,22 +1,33 @@
 #include "opt/solvers/elastic_subproblem.h"
 
 #include <Eigen/LU>
-#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
+
+#include "opt/solvers/envelope_matrix.h"
+#include "opt/solvers/row_blocks.h"
 
 namespace halfstep::opt {
 namespace {
 
 using Array = Eigen::ArrayXd;
 using Eigen::VectorXd;
-using SparseMatrix = Eigen::SparseMatrix<double>;
 
 constexpr int kMostIterations = 60;
-constexpr double kTolerance = 1e-9;           // of the first complementarity
+constexpr double kTolerance = 1e-10;  // of ‖g‖∞ times the largest width: complementarity at the end
 constexpr double kFractionToBoundary = 0.99;  // of the way to the boundary that a step goes at most
+
+// The rows that a step within the bounds can violate.
+std::vector<int> Reached(const ElasticSubproblem& p) {
+  const VectorXd reach = p.A.cwiseAbs() * p.lower.cwiseAbs().cwiseMax(p.upper.cwiseAbs());
+  std::vector<int> rows;
+  for (Eigen::Index i = 0; i < reach.size(); ++i) {
+    if (p.c[i] < reach[i] || p.c[i] < 0.0) rows.push_back(static_cast<int>(i));
+  }
+  return rows;
+}
 
 // With s = c + A d + u, where u ≥ 0 is what a row lacks, z ∈ [0, ν] the rows' duals and y those of
 // the bounds, the central path is
@@ -24,44 +35,60 @@ constexpr double kFractionToBoundary = 0.99;  // of the way to the boundary that
 class InteriorPoint {
  public:
   explicit InteriorPoint(const ElasticSubproblem& problem)
-      : p_(problem), nu_(problem.penalty.array()), At_(problem.A.transpose()) {
+      : p_(problem),
+        A_(problem.A, Reached(problem)),
+        K_(A_.MakeGram()),
+        nu_(Ordered(problem.penalty)) {
     d_ = 0.5 * (p_.lower + p_.upper);
-    const double width = (p_.upper - p_.lower).maxCoeff();
-    mu_ = std::max(0.1 * p_.g.lpNorm<Eigen::Infinity>() * width, 1e-12);
     to_lower_ = d_ - p_.lower;
     to_upper_ = p_.upper - d_.matrix();
-    y_lower_ = mu_ / to_lower_;
-    y_upper_ = mu_ / to_upper_;
-    // The point of the central path for this d.
-    const Array v = p_.c + p_.A * d_;
-    z_ = 2.0 * mu_ * nu_ / (nu_ * v + 2.0 * mu_ + ((nu_ * v).square() + 4.0 * mu_ * mu_).sqrt());
+    const double width = (p_.upper - p_.lower).maxCoeff();
+    first_ = std::max(p_.g.lpNorm<Eigen::Infinity>() * width, 1e-11);
+    // The rows' point of the central path for this d.
+    Array v;
+    A_.Times(d_, &v);
+    v += Ordered(p_.c);
+    z_ = 2.0 * first_ * nu_ /
+         (nu_ * v + 2.0 * first_ + ((nu_ * v).square() + 4.0 * first_ * first_).sqrt());
     z_ = z_.max(1e-12 * nu_).min((1.0 - 1e-12) * nu_);
-    s_ = (mu_ / z_).max(v + 1e-300);
+    s_ = (first_ / z_).max(v + 1e-300);
     u_ = s_ - v;
     // Rounding may have left nothing of the smaller one.
-    const Array least = mu_ / (nu_ - z_);
+    const Array least = first_ / (nu_ - z_);
     u_ = u_.max(1e-3 * least);
     s_ = v + u_;
+    // The bounds' multipliers make up for what the rows' leave of the gradient: no residual.
+    y_lower_ = y_upper_ = Array::Zero(d_.size());
+    const Array rest = Residual(p_.hessian.Times(d_)).array(), least_y = first_ / to_lower_;
+    y_lower_ = least_y + rest.max(0.0);
+    y_upper_ = least_y + (-rest).max(0.0);
+    mu_ = ((s_ * z_).sum() + (u_ * (nu_ - z_)).sum() + (to_lower_ * y_lower_).sum() +
+           (to_upper_ * y_upper_).sum()) /
+          Products();
   }
 
   ElasticStep Run() {
-    const double first = mu_;
+    double gap = 0.0;
     for (int i = 0; i < kMostIterations; ++i) {
-      const VectorXd residual = Residual();
+      const VectorXd curved = p_.hessian.Times(d_), residual = Residual(curved);
+      gap = Gap(residual);
       const double dual_error = residual.lpNorm<Eigen::Infinity>();
-      if (mu_ <= kTolerance * first && dual_error <= 1e-7 * (1.0 + p_.g.lpNorm<Eigen::Infinity>()))
+      if (gap <= p_.gap * Saved(curved)) break;
+      if (mu_ <= kTolerance * first_ && dual_error <= 1e-7 * (1.0 + p_.g.lpNorm<Eigen::Infinity>()))
         break;
       if (!Factorize()) break;
       const Move affine = Direction(residual, 0.0, nullptr);
-      const double far = StepLimit(affine);
-      const double ratio = Complementarity(affine, far) / mu_;
+      const double ratio = Complementarity(affine, Limit(affine, 1.0)) / mu_;
       const double target = mu_ * std::max(ratio * ratio * ratio, 1e-6);
       const Move move = Direction(residual, target, &affine);
       if (!move.d.allFinite()) break;
-      Advance(move, std::min(1.0, kFractionToBoundary * StepLimit(move)));
-      mu_ = Complementarity(move, 0.0);
+      const Lengths lengths = Limit(move, kFractionToBoundary);
+      mu_ = Complementarity(move, lengths);
+      Advance(move, lengths);
     }
-    return {d_.cwiseMax(p_.lower).cwiseMin(p_.upper), z_.matrix()};
+    VectorXd duals = VectorXd::Zero(p_.c.size());
+    for (Eigen::Index k = 0; k < z_.size(); ++k) duals[RowAt(k)] = z_[k];
+    return {d_.cwiseMax(p_.lower).cwiseMin(p_.upper), duals, gap, algebra_};
   }
 
  private:
@@ -69,68 +96,53 @@ class InteriorPoint {
     VectorXd d;
     Array s, u, z, y_lower, y_upper;
   };
+  // How far a step goes: d, s and u, and the multipliers z and y.
+  struct Lengths {
+    double primal, dual;
+  };
 
-  VectorXd Residual() const {
-    return p_.g + p_.hessian.Times(d_) - At_ * z_.matrix() - y_lower_.matrix() + y_upper_.matrix();
+  int RowAt(Eigen::Index k) const { return A_.order()[static_cast<size_t>(k)]; }
+
+  // Of the rows of the problem, those of A_.
+  Array Ordered(const VectorXd& of_rows) const {
+    Array ordered(static_cast<Eigen::Index>(A_.order().size()));
+    for (Eigen::Index k = 0; k < ordered.size(); ++k) ordered[k] = of_rows[RowAt(k)];
+    return ordered;
+  }
+
+  // `curved`: B d.
+  VectorXd Residual(const VectorXd& curved) const {
+    VectorXd residual = p_.g + curved - y_lower_.matrix() + y_upper_.matrix();
+    A_.AddTransposed(-z_, &residual);
+    return residual;
+  }
+
+  double Products() const { return static_cast<double>(2 * s_.size() + 2 * d_.size()); }
+
+  // What the cost at d exceeds the least one by, at most: z and y bound the cost of any d' within
+  // the bounds by that of d less the products, up to the residual times d' − d.
+  double Gap(const VectorXd& residual) const {
+    return Products() * mu_ + residual.cwiseAbs().dot(p_.upper - p_.lower);
+  }
+
+  // How much less d costs than 0.
+  double Saved(const VectorXd& curved) const {
+    return (p_.penalty.array() * (-p_.c.array()).max(0.0)).sum() -
+           (nu_ * (u_ - s_).max(0.0)).sum() - p_.g.dot(d_) - 0.5 * d_.dot(curved);
   }
 
   bool Factorize() {
     stiffness_ = s_ + z_ * u_ / (nu_ - z_);
-    if (K_.size() == 0) {
-      MakePattern();
-      factors_.analyzePattern(K_);
-    }
-    Assemble(z_ / stiffness_, y_lower_ / to_lower_ + y_upper_ / to_upper_ + p_.hessian.sigma());
-    factors_.factorize(K_);
-    if (factors_.info() != Eigen::Success) return false;
+    K_.SetZero();
+    A_.AddGram(z_ / stiffness_, &K_);
+    K_.AddDiagonal(y_lower_ / to_lower_ + y_upper_ / to_upper_ + p_.hessian.sigma());
+    algebra_ += K_.nonzeros();
+    if (!K_.Factorize()) return false;
     if (p_.hessian.empty()) return true;
-    KU_ = factors_.solve(p_.hessian.U());
+    KU_.resize(d_.size(), p_.hessian.U().cols());
+    for (Eigen::Index k = 0; k < KU_.cols(); ++k) KU_.col(k) = K_.Solve(p_.hessian.U().col(k));
     small_.compute(p_.hessian.C() - p_.hessian.U().transpose() * KU_);
     return true;
-  }
-
-  // Calls add(j, i, a_ij) for the entries of AᵀA's column b on and below the diagonal, once for
-  // each row i of A that makes one.
-  template <typename Add>
-  void ForColumn(Eigen::Index b, const Add& add) const {
-    for (SparseMatrix::InnerIterator of_b(p_.A, b); of_b; ++of_b) {
-      for (SparseMatrix::InnerIterator entry(At_, of_b.row()); entry; ++entry) {
-        if (entry.row() >= b) add(entry.row(), of_b.row(), of_b.value() * entry.value());
-      }
-    }
-  }
-
-  // Where K_, the lower triangle of σI + AᵀΘA + the bounds' diagonal, has entries.
-  void MakePattern() {
-    const Eigen::Index n = d_.size();
-    K_.resize(n, n);
-    std::vector<Eigen::Index> rows;
-    // The last column that has an entry in each row.
-    Eigen::VectorX<Eigen::Index> met = Eigen::VectorX<Eigen::Index>::Constant(n, -1);
-    for (Eigen::Index b = 0; b < n; ++b) {
-      rows.assign(1, b);
-      met[b] = b;
-      ForColumn(b, [&](Eigen::Index j, Eigen::Index, double) {
-        if (std::exchange(met[j], b) != b) rows.push_back(j);
-      });
-      std::sort(rows.begin(), rows.end());
-      K_.startVec(b);
-      for (const Eigen::Index j : rows) K_.insertBack(j, b) = 0.0;
-    }
-    K_.finalize();
-  }
-
-  void Assemble(const Array& theta, const Array& diagonal) {
-    VectorXd column = VectorXd::Zero(d_.size());
-    for (Eigen::Index b = 0; b < d_.size(); ++b) {
-      ForColumn(b, [&](Eigen::Index j, Eigen::Index i, double product) {
-        column[j] += theta[i] * product;
-      });
-      column[b] += diagonal[b];
-      for (SparseMatrix::InnerIterator entry(K_, b); entry; ++entry) {
-        entry.valueRef() = std::exchange(column[entry.row()], 0.0);
-      }
-    }
   }
 
   // Newton's step to complementarities `mu`, with the products of `affine` as second order terms.
@@ -146,13 +158,14 @@ class InteriorPoint {
     const Array w = nu_ - z_;
     const Array rho = (rs - z_ * ru / w) / stiffness_;
     Move move;
-    const VectorXd right =
-        -residual + At_ * rho.matrix() + (rl / to_lower_ - rh / to_upper_).matrix();
-    move.d = factors_.solve(right);
+    VectorXd right = -residual + (rl / to_lower_ - rh / to_upper_).matrix();
+    A_.AddTransposed(rho, &right);
+    move.d = K_.Solve(right);
     if (!p_.hessian.empty()) {
       move.d += KU_ * small_.solve(p_.hessian.U().transpose() * move.d);
     }
-    const Array Ad = p_.A * move.d;
+    Array Ad;
+    A_.Times(move.d, &Ad);
     move.z = rho - z_ / stiffness_ * Ad;
     move.u = (ru + u_ * move.z) / w;
     move.s = Ad + move.u;
@@ -161,56 +174,55 @@ class InteriorPoint {
     return move;
   }
 
-  double StepLimit(const Move& m) const {
-    double limit = 1.0;
-    const auto keep = [&limit](const Array& value, const Array& change) {
-      for (Eigen::Index i = 0; i < value.size(); ++i) {
-        if (change[i] < 0.0) limit = std::min(limit, -value[i] / change[i]);
-      }
+  // `fraction` of the way to the boundary, at most the whole step. A curved cost binds multipliers
+  // to d, and both go equally far.
+  Lengths Limit(const Move& m, double fraction) const {
+    const auto decrease = [](const Array& value, const auto& of) {
+      return value.size() > 0 ? (of / value).maxCoeff() : 0.0;
     };
-    keep(s_, m.s);
-    keep(u_, m.u);
-    keep(z_, m.z);
-    keep(nu_ - z_, -m.z);
-    keep(to_lower_, m.d.array());
-    keep(to_upper_, -m.d.array());
-    keep(y_lower_, m.y_lower);
-    keep(y_upper_, m.y_upper);
-    return limit;
+    const double primal =
+        std::max({decrease(s_, -m.s), decrease(u_, -m.u), decrease(to_lower_, -m.d.array()),
+                  decrease(to_upper_, m.d.array())});
+    const double dual = std::max({decrease(z_, -m.z), decrease(nu_ - z_, m.z),
+                                  decrease(y_lower_, -m.y_lower), decrease(y_upper_, -m.y_upper)});
+    const double both = std::max(primal, dual);
+    const bool curved = p_.hessian.sigma() > 0.0;
+    return {fraction / std::max(fraction, curved ? both : primal),
+            fraction / std::max(fraction, curved ? both : dual)};
   }
 
-  // Mean of the products after a step of α.
-  double Complementarity(const Move& m, double alpha) const {
-    const auto product = [alpha](const Array& a, const Array& da, const Array& b, const Array& db) {
-      return ((a + alpha * da) * (b + alpha * db)).sum();
+  // Mean of the products after a step.
+  double Complementarity(const Move& m, const Lengths& by) const {
+    const auto product = [&by](const Array& a, const auto& da, const auto& b, const auto& db) {
+      return ((a + by.primal * da) * (b + by.dual * db)).sum();
     };
-    const Array d = m.d.array();
+    const auto d = m.d.array();
     const double sum = product(s_, m.s, z_, m.z) + product(u_, m.u, nu_ - z_, -m.z) +
                        product(to_lower_, d, y_lower_, m.y_lower) +
                        product(to_upper_, -d, y_upper_, m.y_upper);
-    return sum / static_cast<double>(2 * s_.size() + 2 * d_.size());
+    return sum / Products();
   }
 
-  void Advance(const Move& m, double alpha) {
-    d_ += alpha * m.d;
-    s_ += alpha * m.s;
-    u_ += alpha * m.u;
-    z_ += alpha * m.z;
-    y_lower_ += alpha * m.y_lower;
-    y_upper_ += alpha * m.y_upper;
-    to_lower_ += alpha * m.d.array();
-    to_upper_ -= alpha * m.d.array();
+  void Advance(const Move& m, const Lengths& by) {
+    d_ += by.primal * m.d;
+    s_ += by.primal * m.s;
+    u_ += by.primal * m.u;
+    to_lower_ += by.primal * m.d.array();
+    to_upper_ -= by.primal * m.d.array();
+    z_ += by.dual * m.z;
+    y_lower_ += by.dual * m.y_lower;
+    y_upper_ += by.dual * m.y_upper;
   }
 
   const ElasticSubproblem& p_;
+  const RowBlocks A_;
+  EnvelopeMatrix K_;  // σI + AᵀΘA + the bounds' diagonal, or its factor
   Array nu_;
-  double mu_;
-  SparseMatrix At_;
+  double mu_, first_;  // mean of the products; μ where it begins
   VectorXd d_;
   Array s_, u_, z_, to_lower_, to_upper_, y_lower_, y_upper_;
   Array stiffness_;  // s + z u/(ν − z): Δz = … − z/stiffness · AΔd
-  Eigen::SimplicialLDLT<SparseMatrix> factors_;
-  SparseMatrix K_;
+  long algebra_ = 0;
   Eigen::MatrixXd KU_;
   Eigen::PartialPivLU<Eigen::MatrixXd> small_;
 };

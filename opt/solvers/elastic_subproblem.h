@@ -14,23 +14,29 @@ namespace halfstep::opt {
 ///
 /// B ≥ 0 as a LimitedMemoryHessian estimates it, ν_i > 0, lower < upper finite. Always solvable.
 struct ElasticSubproblem {
-  const LimitedMemoryHessian& hessian;  ///< B; borrowed
-  Eigen::VectorXd g;                    ///< (n)
-  Eigen::SparseMatrix<double> A;        ///< (m×n)
-  Eigen::VectorXd c;                    ///< (m)
-  Eigen::VectorXd lower, upper;         ///< (n)
-  Eigen::VectorXd penalty;              ///< ν (m)
+  const LimitedMemoryHessian& hessian;   ///< B; borrowed
+  Eigen::VectorXd g;                     ///< (n)
+  const Eigen::SparseMatrix<double>& A;  ///< (m×n); borrowed
+  Eigen::VectorXd c;                     ///< (m)
+  Eigen::VectorXd lower, upper;          ///< (n)
+  Eigen::VectorXd penalty;               ///< ν (m)
+  /// How far the step's cost may be from the least, of how much it saves on d = 0. With 0, and
+  /// where next to nothing can be saved, the step is as exact as rounding lets it be.
+  double gap = 0.0;
 };
 
 /// The step that solves the subproblem.
 struct ElasticStep {
   Eigen::VectorXd d;      ///< (n), within its bounds
   Eigen::VectorXd duals;  ///< of the rows (m), each in [0, ν_i]
+  double gap;             ///< what its cost exceeds the least one by at most, up to rounding
+  long linear_algebra;    ///< non-zeros of the factors, summed over the iterations
 };
 
-/// Solves it by a primal-dual interior point method with Mehrotra's corrector; O(n + m) an
-/// iteration when A is banded. Ends at a relative complementarity of 1e-9 or after 60 iterations,
-/// and returns the step reached. Source: opt/README.md, "halfstep/sqp".
+/// Solves it, without the rows that no step within the bounds can violate, by a primal-dual
+/// interior point method with Mehrotra's corrector; O(n + m) an iteration when A is banded. Ends
+/// within `gap`, at a complementarity of 1e-10 ‖g‖∞ times the largest width, or after 60
+/// iterations, and returns the step reached. Source: opt/README.md, "halfstep/sqp".
 ElasticStep Solve(const ElasticSubproblem& problem);
 
 /// Σ_i max(0, −v_i).

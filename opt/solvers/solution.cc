@@ -27,6 +27,7 @@ std::string Solution::FullReport() const {
       << "gradient evaluations    " << gradient_evaluations << '\n'
       << "constraint evaluations  " << constraint_evaluations << '\n'
       << "Jacobian evaluations    " << jacobian_evaluations << '\n'
+      << "linear algebra          " << linear_algebra << '\n'
       << "largest violation       " << max_violation
       << (worst_row.empty() ? std::string() : " in " + worst_row) << '\n'
       << "where the solver ended  cost " << final_cost << ", violation " << final_violation << '\n';

@@ -40,10 +40,14 @@ struct Solution {
   double max_violation = std::numeric_limits<double>::infinity();  ///< natural unit of worst_row
   std::string worst_row;                                           ///< "" when nothing is violated
   int iterations = 0;                                              ///< of the solver
-  long cost_evaluations = 0;                    ///< of the problem during this call of Solve
-  long gradient_evaluations = 0;                ///< as cost_evaluations
-  long constraint_evaluations = 0;              ///< as cost_evaluations
-  long jacobian_evaluations = 0;                ///< as cost_evaluations
+  long cost_evaluations = 0;        ///< of the problem during this call of Solve
+  long gradient_evaluations = 0;    ///< as cost_evaluations
+  long constraint_evaluations = 0;  ///< as cost_evaluations
+  long jacobian_evaluations = 0;    ///< as cost_evaluations
+  /// Work of the solver's linear algebra during this call: non-zeros of the factor (one triangle)
+  /// times factorizations, summed. The same in every run, as far as the library repeats itself. Of
+  /// libraries, whose factors are not seen: an estimate (SolveMonitor::EstimateAlgebra).
+  long linear_algebra = 0;
   double wall = 0.0;                            ///< [s]
   std::vector<HistoryEntry> history;            ///< one entry an iteration
   std::shared_ptr<const WarmStart> warm_start;  ///< null when the solver provides none

@@ -42,6 +42,8 @@ bool SolveMonitor::MayGoOn() {
   } else if (points_ > options_.max_evaluations) {
     Stop(Ending::kLimit,
          "max_evaluations = " + std::to_string(options_.max_evaluations) + " reached.");
+  } else if (options_.may_go_on && !options_.may_go_on(counted_.linear_algebra)) {
+    Stop(Ending::kLimit, "The effort of the solve is used.");
   }
   return !stopped_;
 }
@@ -139,6 +141,7 @@ bool SolveMonitor::Jacobian(const Eigen::VectorXd& x, std::vector<double>* nonze
     });
     if (!evaluated) return false;
     ++counted_.jacobian_evaluations;
+    CountAlgebra(static_cast<long>(passes_ * problem_.pattern().rows.size()));
     point_.jacobian = std::move(slopes);
     if (values) KeepConstraints(*std::move(values));
   }

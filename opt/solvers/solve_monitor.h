@@ -46,6 +46,12 @@ class SolveMonitor {
   /// Returns false once a limit, the stop token, on_iterate or an exception has asked to stop.
   bool MayGoOn();
 
+  /// Adds to Solution::linear_algebra, after each factorization: the non-zeros of its factor.
+  void CountAlgebra(long nonzeros) { counted_.linear_algebra += nonzeros; }
+  /// From now on each evaluation of the Jacobian adds `passes` times its declared non-zeros: what a
+  /// library does with a Jacobian is not seen, and is taken for so many passes over it.
+  void EstimateAlgebra(int passes) { passes_ = passes; }
+
   double RemainingTime() const;                                 ///< [s], inf without a deadline
   const Problem& problem() const { return problem_; }           ///< that is being solved
   const SolverOptions& options() const { return options_; }     ///< as the caller gave them
@@ -94,6 +100,7 @@ class SolveMonitor {
   Point point_, best_;
   bool beginning_ = false;  ///< the start is evaluated whatever the limits
   int points_ = 0;
+  int passes_ = 0;  ///< over each Jacobian by a library
   int iterations_ = 0;
   double highest_cost_;
   std::string non_finite_;         ///< a sentence about the last value that was not finite

@@ -36,6 +36,9 @@ struct SolverOptions {
   /// Relative tolerance that the solver's own test of optimality is given (Ipopt `tol`, NLopt
   /// ftol_rel and xtol_rel, Ceres' gradient tolerance).
   double optimality_tolerance = 1e-6;
+  /// Asked before each evaluation with the Solution::linear_algebra of this solve so far; false:
+  /// the solve ends as kLimit, its effort used. Null: always true. Must not throw.
+  std::function<bool(long linear_algebra)> may_go_on = nullptr;
   /// When it is requested, the solve ends as kInterrupted with the best point so far.
   std::stop_token stop;
   std::function<bool(const Iterate&)> on_iterate;  ///< called at each iteration; false: stop

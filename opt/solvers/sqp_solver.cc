@@ -26,6 +26,9 @@ constexpr double kLeastRegion = 1e-12, kMostRegion = 1e3;  // of the variables' 
 constexpr double kFirstRegion = 0.02;                      // at least, of a later solve
 // Of a group's violation: what a step may leave of it at any penalty, and what counts as none.
 constexpr double kTolerated = 0.1, kNothing = 1e-9;
+// How far the model's cost at a step may be from its minimum, of what the step saves: the merit
+// function judges it, and where less can be saved, the step is the more exact.
+constexpr double kGap = 0.03;
 
 struct SqpMemory : WarmStart {
   explicit SqpMemory(size_t memory) : hessian(memory) {}
@@ -103,15 +106,16 @@ class Sqp {
 
   bool Fixed(int v) const { return problem_.lower()[v] == problem_.upper()[v]; }
 
-  // The step within the region, of those rows that it can violate.
+  // The step within the region.
   ElasticStep Restricted(const VectorXd& c, const SparseMatrix& A) const {
     ElasticSubproblem sub{.hessian = hessian_,
                           .g = gradient_,
-                          .A = {},
-                          .c = {},
+                          .A = A,
+                          .c = c,
                           .lower = {},
                           .upper = {},
-                          .penalty = {}};
+                          .penalty = penalties_->OfRows(),
+                          .gap = kGap};
     sub.lower = (problem_.lower() - x_).cwiseMax(-region_);
     sub.upper = (problem_.upper() - x_).cwiseMin(region_);
     for (int v = 0; v < x_.size(); ++v) {
@@ -120,22 +124,8 @@ class Sqp {
       sub.lower[v] = -region_[v];
       sub.upper[v] = region_[v];
     }
-    const VectorXd reach = A.cwiseAbs() * sub.lower.cwiseAbs().cwiseMax(sub.upper.cwiseAbs());
-    std::vector<Eigen::Index> kept;
-    for (Eigen::Index i = 0; i < c.size(); ++i) {
-      if (c[i] < reach[i] || c[i] < 0.0) kept.push_back(i);
-    }
-    SparseMatrix choose(static_cast<Eigen::Index>(kept.size()), c.size());
-    std::vector<Eigen::Triplet<double>> ones;
-    for (size_t k = 0; k < kept.size(); ++k) {
-      ones.emplace_back(static_cast<int>(k), static_cast<int>(kept[k]), 1.0);
-    }
-    choose.setFromTriplets(ones.begin(), ones.end());
-    sub.A = choose * A;
-    sub.c = choose * c;
-    sub.penalty = choose * penalties_->OfRows();
     ElasticStep step = Solve(sub);
-    step.duals = choose.transpose() * step.duals;
+    monitor_.CountAlgebra(step.linear_algebra);
     for (int v = 0; v < x_.size(); ++v) {
       if (Fixed(v)) step.d[v] = 0.0;
     }
@@ -157,7 +147,9 @@ class Sqp {
     const ElasticStep step = Restricted(c, A);
     const std::vector<double> left = penalties_->Violations(c + A * step.d);
     std::vector<double> tolerated = penalties_->Violations(c), half = left;
-    for (double& v : tolerated) v = std::max(kNothing, kTolerated * v);
+    for (size_t k = 0; k < tolerated.size(); ++k) {
+      tolerated[k] = std::max({kNothing, kTolerated * tolerated[k], step.gap / penalties_->Of(k)});
+    }
     for (double& v : half) v *= 0.5;
     const RowPenalties before = *penalties_;
     if (!penalties_->Raise(left, tolerated)) return step;

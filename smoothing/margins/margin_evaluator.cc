@@ -34,7 +34,7 @@ MarginEvaluator MarginEvaluator::WithLimits(const MarginLimits& limits) const {
 
 MarginSet MarginEvaluator::At(const SuperposedWalk& walk, const LocalTime& at,
                               Scratch* scratch) const {
-  ++scratch->instants;
+  ++scratch->work.instants;
   Instant instant(place(), limits_, walk, at, scratch);
   MarginSet margins;
   for (const MarginFamily family : AllMarginFamilies()) {
@@ -49,7 +49,7 @@ MarginSet MarginEvaluator::At(const SuperposedWalk& walk, const LocalTime& at,
 
 std::optional<Margin> MarginEvaluator::FirstViolation(const SuperposedWalk& walk,
                                                       const LocalTime& at, Scratch* scratch) const {
-  ++scratch->instants;
+  ++scratch->work.instants;
   Instant instant(place(), limits_, walk, at, scratch);
   for (const MarginFamily family : families_by_cost()) {
     std::optional<Margin> below =
@@ -64,7 +64,7 @@ std::optional<Margin> MarginEvaluator::FirstViolation(const SuperposedWalk& walk
 
 std::vector<Margin> MarginEvaluator::Violations(const SuperposedWalk& walk, const LocalTime& at,
                                                 Scratch* scratch) const {
-  ++scratch->instants;
+  ++scratch->work.instants;
   Instant instant(place(), limits_, walk, at, scratch);
   std::vector<Margin> below;
   for (const MarginFamily family : families_by_cost()) {

@@ -10,6 +10,7 @@
 #include "smoothing/margins/body_clearances.h"
 #include "smoothing/margins/body_heights.h"
 #include "smoothing/margins/rounding.h"
+#include "smoothing/margins/work.h"
 #include "wpg/check.h"
 #include "wpg/geometry/pose2.h"
 #include "wpg/robot/robot_model.h"
@@ -44,7 +45,7 @@ struct MarginPlace {
   Rounding rounding;          ///< of the robot's walks
 };
 
-/// What families remember from one instant to the next, and how many instants were asked about. Use
+/// What families remember from one instant to the next, and the work that was done. Use
 /// one for each thread.
 struct MarginScratch {
   /// The no-step area that was nearest to a sole where it stood last.
@@ -54,7 +55,7 @@ struct MarginScratch {
     bool known = false;            ///< whether it has stood
   };
   BodyClearances::Scratch bodies;         ///< of BodyClearances
-  long instants = 0;                      ///< evaluated so far
+  Work work = {};                         ///< done so far
   std::stop_token stop = {};              ///< ends proofs; what is not decided then stays undecided
   std::array<Standing, 2> standing = {};  ///< by Index(Side)
   /// Threads that proofs may use beside the caller's, borrowed; null: none.

@@ -27,7 +27,7 @@ SlackEvaluator::SlackEvaluator(const MarginEvaluator& evaluator, double cutoff,
 
 void SlackEvaluator::At(const SuperposedWalk& walk, const LocalTime& at,
                         const ParameterRates& moving, bool gradient, InstantSlacks* out) {
-  ++scratch_.instants;
+  ++(gradient ? scratch_.work.derivatives : scratch_.work.instants);
   out->parameters.clear();
   out->times.clear();
   sink_.Clear();

@@ -44,8 +44,8 @@ class SlackEvaluator {
   void At(const SuperposedWalk& walk, const LocalTime& at, const ParameterRates& moving,
           bool gradient, InstantSlacks* out);
 
-  /// How many instants were evaluated.
-  long instants() const { return scratch_.instants; }
+  /// The instants that were evaluated.
+  const Work& work() const { return scratch_.work; }
 
  private:
   const MarginEvaluator& evaluator_;

@@ -51,35 +51,52 @@ bool Incumbent::Replace(const HomotopyParameters& point, std::vector<Margin>* re
   return true;
 }
 
-double Incumbent::Toward(const HomotopyParameters& candidate, int attempts) {
-  constexpr double kLeastPart = 0.4;  // below it: none
+namespace {
+
+// Half-steps of a step share numbers, so they stay together.
+void Hold(size_t first, size_t last, std::vector<double>* lambda) {
+  for (size_t i = first / 2 * 2; i < std::min(lambda->size(), last / 2 * 2 + 2); ++i) {
+    (*lambda)[i] = 0.0;
+  }
+}
+
+std::vector<double> AllBut(const std::vector<bool>& held, size_t n) {
+  std::vector<double> lambda(n, 1.0);
+  for (size_t i = 0; i < held.size(); ++i) {
+    if (held[i]) Hold(i, i, &lambda);
+  }
+  return lambda;
+}
+
+}  // namespace
+
+HomotopyParameters Incumbent::Beside(const HomotopyParameters& candidate,
+                                     const std::vector<bool>& held) const {
+  return Between(candidate, AllBut(held, candidate.durations.size()));
+}
+
+double Incumbent::Toward(const HomotopyParameters& candidate, int attempts,
+                         const std::vector<bool>& held) {
   refusals_.clear();
   const size_t n = candidate.durations.size();
-  std::vector<double> lambda(n, 1.0);
+  std::vector<double> lambda = AllBut(held, n);
   std::vector<Margin> refusals;
-  int attempt = 0;
-  for (; attempt < attempts; ++attempt) {
+  for (int attempt = 0; attempt < attempts; ++attempt) {
     if (Replace(Between(candidate, lambda), &refusals)) {
       return std::accumulate(lambda.begin(), lambda.end(), 0.0) / static_cast<double>(n);
     }
     if (refusals.empty()) break;  // it would not cost less
-    if (refusals_.empty()) refusals_ = refusals;
+    if (attempt == 0) refusals_ = refusals;
+    if (!rules_.local) {
+      for (double& part : lambda) part *= 0.5;
+      continue;
+    }
     const std::vector<double> before = lambda;
-    std::vector<bool> held(n, !rules_.local);
     for (const Margin& refusal : refusals) {
       const size_t k = static_cast<size_t>(refusal.at.half_step);
-      for (size_t i = k > 0 ? k - 1 : 0; i < std::min(n, k + 2); ++i) held[i] = true;
-    }
-    for (size_t i = 0; i < n; ++i) {
-      if (held[i]) lambda[i] *= 0.5;
-      if (rules_.local && lambda[i] < kLeastPart) lambda[i] = 0.0;
+      Hold(k > 0 ? k - 1 : 0, k + 1, &lambda);
     }
     if (lambda == before) break;  // what is refused does not move
-  }
-  // Where nearly all half-steps are held back, a part of the way of all may still do.
-  for (double part = 0.5; rules_.local && part > 0.1 && attempt < attempts; part *= 0.5) {
-    if (Replace(Between(candidate, std::vector<double>(n, part)), &refusals)) return part;
-    ++attempt;
   }
   return 0.0;
 }

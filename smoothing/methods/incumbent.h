@@ -11,10 +11,9 @@
 namespace halfstep {
 
 /// Keeps the best point of the homotopy that was proved, the incumbent. A candidate replaces it
-/// only if it costs less and that was proved. One that is refused is approached instead: around the
-/// half-steps where it was refused, parameters go only a part of the way from the incumbent, less
-/// and less; where nothing comes of that, all go a half, a quarter or an eighth of the way. So
-/// whatever proposes candidates may stop at any moment.
+/// only if it costs less and that was proved. Where one is refused, the steps around the refusal
+/// stay as they are in the incumbent, and the rest is tried again. So whatever proposes candidates
+/// may stop at any moment.
 class Incumbent {
  public:
   /// What the incumbent is compared by, and where it may move.
@@ -37,9 +36,15 @@ class Incumbent {
   Incumbent(const HalfStepSequence& sequence, Rules rules, HomotopyParameters start, double cost,
             MarginEvaluator::Scratch* scratch);
 
-  /// Moves the incumbent towards a candidate, trying at most `attempts` ≥ 1 points. Returns how far
-  /// it moved, ∈ [0, 1], as a mean over the half-steps.
-  double Toward(const HomotopyParameters& candidate, int attempts);
+  /// Moves the incumbent to a candidate where that is proved, trying at most `attempts` ≥ 1 points.
+  /// Steps with half-steps that are `held` stay as they are from the first point on. Returns how
+  /// far it moved, ∈ [0, 1], as a mean over the half-steps.
+  double Toward(const HomotopyParameters& candidate, int attempts,
+                const std::vector<bool>& held = {});
+
+  /// The candidate, but steps with half-steps that are `held` as in the incumbent. Not proved.
+  HomotopyParameters Beside(const HomotopyParameters& candidate,
+                            const std::vector<bool>& held) const;
 
   /// The best point that was proved.
   const HomotopyParameters& parameters() const { return parameters_; }

@@ -2,220 +2,166 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "opt/adapters/solver_registry.h"
 #include "smoothing/methods/dichotomy.h"
-#include "smoothing/methods/fine_dichotomies.h"
 #include "smoothing/methods/overlap_prices.h"
 #include "smoothing/methods/search_ending.h"
-#include "smoothing/methods/search_rounds.h"
 #include "smoothing/methods/whole_proof.h"
-#include "smoothing/methods/whole_search.h"
-#include "smoothing/methods/window_passes.h"
+#include "smoothing/walk/superposed_walk.h"
 #include "wpg/files/text.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
 
-// Of the dichotomy before a search that is to shorten the walk anyway [s]; the larger one for
-// solvers that take long steps.
-constexpr double kNearStart = 0.1, kFarStart = 0.5;
-// Instants a half-step where each has rows of its own.
-constexpr int kRowsInstants = 24;
-// Windows have this part of the time that is left at most.
-constexpr double kWindowsPart = 0.8;
-// A search without windows follows where these end before this part of the whole time, and one in
-// longer windows where the rounds over the whole end before the other.
-constexpr double kAnotherPart = 0.5, kLongerPart = 0.9;
 // A search that does not beat a plain dichotomy by this has found nothing [s].
 constexpr double kGainedTime = 1e-9;
-
-// What a search does beside the rounds over all that it moves.
-struct Stages {
-  RestartPolicy restarts;
-  int window = 6;        // half-steps of the windows before them, where forms move; 0: none
-  bool compares = true;  // with other searches and with fine dichotomies
-};
-// Before a search over more families, which goes on from what it finds.
-constexpr Stages kBefore = {
-    .restarts = {.poor_rounds = 2, .repeats = false}, .window = 0, .compares = false};
-// Searches beside that in windows, which may come to a better walk.
-constexpr Stages kWithoutWindows = {.restarts = {.repeats = false}, .window = 0, .compares = false};
-constexpr Stages kInLongerWindows = {.restarts = {}, .window = 8, .compares = false};
-
-// What to search over first: without footsteps where half-steps have forms, too; else with every
-// form and footstep as planned.
-ParameterChoice FewerFamilies(const ParameterChoice& choice) {
-  ParameterChoice standing = choice;
-  standing.footsteps = false;
-  const bool has_forms = standing != WithoutForms(standing);
-  return choice.footsteps && has_forms ? standing : WithoutForms(choice);
-}
 
 class Optimization {
  public:
   Optimization(const WalkProblem& problem, const OptimizerOptions& options,
-               const opt::Solver& solver, const Stages& stages, SmoothingMonitor& monitor)
+               std::shared_ptr<const opt::Solver> solver, SmoothingMonitor& monitor)
       : problem_(problem),
         options_(options),
-        solver_(solver),
-        stages_(stages),
+        solver_(std::move(solver)),
         monitor_(monitor),
         end_{.solver = options.solver,
-             .kept = options.start ? "the walk is what it started from"
-                                   : "the walk is a dichotomy's"} {}
+             .kept = options.begin ? "the walk is what it started from"
+                                   : "the walk is the planned motion"} {}
 
   SmoothingResult Run() {
-    if (options_.deadline <= monitor_.Remaining()) end_.deadline = options_.deadline;
-    monitor_.Begin(problem_, options_.start.value_or(problem_.Start()));
-    DichotomyOptions dichotomy{.tolerance = StartTolerance()};
-    if (options_.start) {
-      dichotomy.start = options_.start;
-      dichotomy.passes = 0;
+    monitor_.LimitTo(options_.effort, options_.deadline);
+    const HomotopyParameters begin = options_.begin.value_or(problem_.Start());
+    if (!monitor_.BeginFeasibly(problem_, begin)) return monitor_.Refusal();
+    if (!Safest() && !Fastest()) {  // the monitor takes costs for durations
+      monitor_.Adopt(*monitor_.accepted(), CostAt(begin), DurationOf(begin));
     }
-    Take(RunDichotomy(dichotomy, 0.0, 0.2));
-    if (!monitor_.accepted() || monitor_.stopped()) {
-      NoteStop();
-      return monitor_.Finish(end_.Ending(), monitor_.accepted() ? end_.Sentence() : start_message_);
+    const SearchStart start = Safest() || options_.begin ? SearchStart::kDichotomy : options_.start;
+    if (start == SearchStart::kDichotomy && !options_.begin) {
+      TakeDichotomy(problem_.Start(), options_.tolerance);
     }
-    const ParameterChoice& all = options_.program.parameters;
-    const ParameterChoice fewer = FewerFamilies(all);
-    const HomotopyParameters begun = monitor_.incumbent();
-    RestartPolicy restarts = stages_.restarts;
-    const bool staged = Fastest() && fewer != all;
-    const bool by_windows = staged && options_.windows && solver_.traits().many_rows &&
-                            stages_.window > 0 && problem_.sequence().size() > stages_.window;
-    if (by_windows) {
-      SearchInWindows();
-      restarts.planned_start = false;  // the search without windows has it
-      const bool soon = monitor_.Seconds() < kAnotherPart * options_.deadline;
-      if (stages_.compares && soon) SearchApart(all, begun, kWithoutWindows, 0.5);
-    } else if (staged) {
-      const SmoothingResult found = SearchApart(fewer, begun, kBefore, 0.5);
-      if (monitor_.stopped()) return monitor_.Finish(found.ending, found.message);
-    }
-
+    if (monitor_.stopped()) return CutOff();
     const double own = DurationOf(monitor_.incumbent());
     const double limit = options_.duration_limit > 0.0 ? options_.duration_limit : own;
-    OverlapProgram program(problem_.sequence(), problem_.evaluator(), options_.program, limit,
-                           problem_.fixed());
-    program.watched().SetWorkers(monitor_.workers());
-    end_.own = SearchWhole(problem_, options_, solver_, restarts, search_from_, &program, monitor_,
-                           &end_) ||
-               found_apart_;
-    const bool longer = problem_.sequence().size() > kInLongerWindows.window;
-    const bool time_is_left = monitor_.Seconds() < kLongerPart * options_.deadline;
-    if (by_windows && stages_.compares && longer && time_is_left && !monitor_.stopped()) {
-      SearchApart(all, begun, kInLongerWindows, 1.0);
-      end_.own = end_.own || found_apart_;
-    }
-    return Conclude(program);
+    RangeOptions range{.solver = solver_,
+                       .program = options_.program,
+                       .duration_limit = limit,
+                       .iterations = options_.max_iterations,
+                       .rounds = options_.rounds,
+                       .tuning = options_.tuning};
+    const double effort = (1.0 - options_.tuning.last_part) * monitor_.effort();
+    end_.own = RunStages(problem_, StagesOf(), start, range, effort, monitor_, &end_);
+    return Conclude(limit);
   }
 
  private:
   bool Safest() const { return options_.program.kind == ProgramKind::kSafest; }
   bool Fastest() const { return options_.program.kind == ProgramKind::kFastest; }
 
-  // Of the dichotomy before the search. `safest` and `smooth` compare with the fine one's result.
-  double StartTolerance() const {
-    if (!Fastest()) return options_.tolerance;
-    return std::max(options_.tolerance, solver_.traits().long_steps ? kFarStart : kNearStart);
+  // What a walk costs before the search; `safest` knows it only over the whole program.
+  double CostAt(const HomotopyParameters& walk) const {
+    return Safest() ? DurationOf(walk) : CostOf(problem_.sequence(), walk, options_.program);
   }
 
-  SmoothingResult RunDichotomy(const DichotomyOptions& options, double from, double to) {
-    SmoothingMonitor within(monitor_.Part(from, to));
-    SmoothingResult result = Dichotomy(problem_, options, within);
-    monitor_.Count(result);
-    return result;
-  }
-
-  // A dichotomy's walk becomes the incumbent, with its candidates.
-  void Take(const SmoothingResult& dichotomy) {
-    start_message_ = dichotomy.message;
-    SmoothingResult& result = monitor_.result();
-    result.iterates = dichotomy.iterates;
-    if (dichotomy.accepted) {
-      const double duration = DurationOf(dichotomy.parameters);
-      monitor_.Adopt(*dichotomy.accepted, duration, duration);
+  std::vector<SearchStage> StagesOf() const {
+    if (options_.only) return {*options_.only};
+    const SearchTuning& tuning = options_.tuning;
+    std::vector<SearchStage> stages;
+    const bool by_windows = options_.windows && !Safest() && solver_->traits().many_rows &&
+                            problem_.scene().rests() &&
+                            problem_.sequence().size() > 2 * tuning.window;
+    if (by_windows) {
+      stages.push_back(
+          {.window = tuning.window, .step = tuning.step, .rounds = tuning.window_rounds});
     }
-    result.junctions = dichotomy.junctions;
-    result.time_to_first_improvement = dichotomy.time_to_first_improvement;
+    stages.push_back({.rounds = options_.rounds});
+    return stages;
   }
 
-  // Rounds in windows, from the incumbent. From a dichotomy's walk they come to better walks than
-  // rounds over the whole do, and on long ones sooner.
-  void SearchInWindows() {
-    const double now = monitor_.Seconds();
-    const WindowPassesOptions windows{
-        .window = stages_.window,
-        .passes = std::min(WindowPassesOptions().passes, options_.rounds),
-        .program = options_.program,
-        .deadline = now + kWindowsPart * (options_.deadline - now)};
-    found_apart_ = SearchWindows(problem_, windows, solver_, search_from_, 0.5, monitor_, &end_);
-    search_from_ = 0.5;
-  }
-
-  // The same search with other stages, from `start`, in a part of the time that is left. Over all
-  // families at once the solver can miss walks that it finds when it begins at the best walk of
-  // fewer.
-  SmoothingResult SearchApart(const ParameterChoice& families, const HomotopyParameters& start,
-                              const Stages& stages, double part) {
-    OptimizerOptions options = options_;
-    options.program.parameters = families;
-    options.start = start;
-    options.deadline = part * (options_.deadline - monitor_.Seconds());
-    const double before = monitor_.cost();
-    const double to = search_from_ + part * (0.9 - search_from_);
-    SmoothingMonitor within(monitor_.Part(search_from_, to));
-    SmoothingResult found = Optimization(problem_, options, solver_, stages, within).Run();
-    search_from_ = to;
-    TakeSearch(found, /*from_incumbent=*/false, monitor_);
-    found_apart_ = found_apart_ || (HasOwnResult(found.ending) && monitor_.cost() < before);
-    return found;
-  }
-
-  SmoothingResult Conclude(const OverlapProgram& program) {
-    for (JunctionResult& junction : monitor_.result().junctions) {
-      if (!Fastest() || monitor_.stopped()) junction.limited_by.reset();
+  // A dichotomy from `start`, or from the incumbent where that is it; its walk becomes the
+  // incumbent where it is shorter.
+  void TakeDichotomy(const HomotopyParameters& start, double tolerance) {
+    DichotomyOptions dichotomy{.tolerance = tolerance};
+    const bool from_incumbent = start == monitor_.incumbent();
+    if (from_incumbent) {
+      dichotomy.accepted_start = *monitor_.accepted();
+    } else {
+      dichotomy.start = start;
     }
-    if (stages_.compares && Fastest() && !monitor_.stopped()) {
+    SmoothingMonitor within(monitor_.Part(0.9, 1.0));
+    const SmoothingResult found = Dichotomy(problem_, dichotomy, within);
+    const double effort = monitor_.work().effort();
+    monitor_.Count(found);
+    if (!found.accepted || (!from_incumbent && !(found.cost < monitor_.cost()))) return;
+    for (SmoothingIterate iterate : found.iterates) {
+      if (iterate.incumbent_duration > monitor_.duration()) continue;
+      iterate.wall += monitor_.Seconds() - found.wall;
+      iterate.instants += monitor_.work().evaluated() - found.work.evaluated();
+      iterate.effort += effort;
+      monitor_.result().iterates.push_back(iterate);
+    }
+    monitor_.Adopt(*found.accepted, CostAt(found.parameters), DurationOf(found.parameters));
+    if (!options_.begin) end_.kept = "the walk is a dichotomy's";
+    monitor_.result().junctions = found.junctions;
+  }
+
+  // What no dichotomy from the planned motion gets below: with every overlap at its natural bound.
+  double LeastOfDichotomy() const {
+    HomotopyParameters start = problem_.Start();
+    for (int i = 0; i < problem_.sequence().num_junctions(); ++i) {
+      Nth(start.overlaps, i) = std::max(Nth(start.overlaps, i), NaturalOverlapBound(start, i));
+    }
+    return DurationOf(start);
+  }
+
+  SmoothingResult Conclude(double limit) {
+    if (Fastest() && !monitor_.cut_off()) {
       const AcceptedWalk searched = *monitor_.accepted();
       const double cost = monitor_.cost();
-      const FineDichotomies fine =
-          RunFineDichotomies(problem_, options_.tolerance, !options_.start, monitor_);
-      TakeSearch(fine.from_incumbent, /*from_incumbent=*/true, monitor_);
+      TakeDichotomy(monitor_.incumbent(), options_.tolerance);
       KeepWhatHolds(problem_, searched, cost, monitor_);
-      if (fine.from_start) {
-        const bool same = monitor_.incumbent() == problem_.Start();
-        TakeSearch(*fine.from_start, same, monitor_);
-        end_.own = end_.own && monitor_.cost() < fine.from_start->cost - kGainedTime;
+      if (!options_.begin && monitor_.cost() > LeastOfDichotomy()) {
+        const double before = monitor_.cost();
+        TakeDichotomy(problem_.Start(), options_.tolerance);
+        end_.own = end_.own && monitor_.cost() >= before - kGainedTime;
       }
+    } else {
+      for (JunctionResult& junction : monitor_.result().junctions) junction.limited_by.reset();
     }
-    if (!Safest()) AddMultipliers(program, monitor_.incumbent(), &monitor_.result().junctions);
-    NoteStop();
+    if (!Safest()) AddMultipliers();
+    if (monitor_.stopped()) end_.NoteCut(monitor_);
     std::string message = end_.Sentence();
     if (Safest() && !std::isfinite(monitor_.cost())) {
-      message += Formatted("; no walk of at most %f s was proved, the dichotomy's is kept",
-                           program.duration_limit());
+      message += Formatted("; no walk of at most %f s was proved, the dichotomy's is kept", limit);
     }
     return monitor_.Finish(end_.Ending(), message);
   }
 
-  void NoteStop() {
-    end_.stopped = monitor_.interrupted();
-    end_.deadline_passed = end_.deadline_passed || (monitor_.stopped() && !end_.stopped);
+  void AddMultipliers() {
+    ProgramOptions sharp = options_.program;
+    sharp.watch.row_per_instant = true;
+    sharp.watch.sharpness = options_.tuning.sharpness;
+    OverlapProgram program(problem_.sequence(), problem_.evaluator(), sharp, 0.0, problem_.fixed());
+    program.watched().SetWorkers(monitor_.workers());
+    program.watched().SetWork(&monitor_.scratch()->work);
+    program.watched().Focus(SuperposedWalk(problem_.sequence(), monitor_.incumbent()),
+                            options_.tuning.look_period, 0.0);
+    halfstep::AddMultipliers(program, monitor_.incumbent(), &monitor_.result().junctions);
+  }
+
+  SmoothingResult CutOff() {
+    end_.NoteCut(monitor_);
+    return monitor_.Finish(end_.Ending(), end_.Sentence());
   }
 
   const WalkProblem& problem_;
   const OptimizerOptions& options_;
-  const opt::Solver& solver_;
-  const Stages& stages_;
+  const std::shared_ptr<const opt::Solver> solver_;
   SmoothingMonitor& monitor_;
-  double search_from_ = 0.2;  // of the progress
-  bool found_apart_ = false;  // what is not from SearchWhole
-  std::string start_message_;
   SearchEnding end_;
 };
 
@@ -225,12 +171,10 @@ SmoothingResult OptimizeOverlaps(const WalkProblem& problem, const OptimizerOpti
                                  SmoothingMonitor& monitor) {
   std::shared_ptr<const opt::Solver> solver = options.own_solver;
   if (!solver) solver = opt::MakeSolver(options.solver);
-  const opt::SolverTraits traits = solver->traits();
   OptimizerOptions own = options;
-  own.program.watch = RowsFor(traits, problem.test(), kRowsInstants, own.program.watch);
-  if (own.instants > 0) own.program.watch.instants = own.instants;
-  if (own.max_iterations == 0) own.max_iterations = traits.iterations;
-  return Optimization(problem, own, *solver, Stages(), monitor).Run();
+  if (own.instants > 0) own.program.watch.instants = own.tuning.instants = own.instants;
+  if (own.max_iterations == 0) own.max_iterations = solver->traits().iterations;
+  return Optimization(problem, own, std::move(solver), monitor).Run();
 }
 
 }  // namespace halfstep

@@ -19,9 +19,9 @@ void AddPrices(const SuperposedWalk& walk, const MarginEvaluator& evaluator,
 
 /// Fills `multiplier` of every junction that a margin limits: the program's multipliers at
 /// `parameters`, by our own estimate whatever the solver, of the rows of that family in the
-/// half-steps on both sides. Rows nearly active count. It is not a number where it is not determined:
-/// within the bounds of the variables none of these rows changes, to first order, by as much as
-/// counts as nearly active, or the multipliers promise more time than the walk lasts.
+/// half-steps on both sides. Rows nearly active count. It is not a number where it is not
+/// determined: within the bounds of the variables none of these rows changes, to first order, by as
+/// much as counts as nearly active, or the multipliers promise more time than the walk lasts.
 void AddMultipliers(const OverlapProgram& program, const HomotopyParameters& parameters,
                     std::vector<JunctionResult>* junctions);
 

@@ -49,7 +49,7 @@ SmoothingResult BeginWithDichotomy(const WalkProblem& problem, double tolerance,
   return dichotomy;
 }
 
-// Solves one after the other; they share what is left of the deadline evenly, and what one does not
+// Solves one after the other; they share what is left of the effort evenly, and what one does not
 // need others have.
 class CurveSolves {
  public:
@@ -62,10 +62,10 @@ class CurveSolves {
     OptimizerOptions with = options_;
     with.program.kind = kind;
     with.duration_limit = limit;
-    with.start = start;
-    const double begun = monitor_.Seconds();
+    with.begin = start;
+    const double begun = monitor_.Seconds(), used = monitor_.work().effort();
     SmoothingMonitor within(monitor_.Part(done_ / count_, (done_ + 1) / count_));
-    within.LimitTo(std::max(0.0, Share()));
+    with.effort = std::max(0.0, Share());
     SmoothingResult result = OptimizeOverlaps(problem_, with, within);
     ++done_;
     if (opt::HasOwnResult(result.ending)) weakest_ = std::max(weakest_, result.ending);
@@ -73,6 +73,7 @@ class CurveSolves {
     monitor_.result().raw_infeasible += result.raw_infeasible;
     for (SmoothingIterate iterate : result.iterates) {
       iterate.wall += begun;
+      iterate.effort += used;
       monitor_.result().iterates.push_back(iterate);
     }
     if (kind == ProgramKind::kSafest && std::isfinite(result.cost)) {
@@ -86,9 +87,7 @@ class CurveSolves {
   opt::Ending weakest() const { return weakest_; }  // of the solves that found something
 
  private:
-  double Share() const {
-    return (options_.deadline - monitor_.Seconds()) / std::max(1.0, count_ - done_);
-  }
+  double Share() const { return monitor_.EffortLeft() / std::max(1.0, count_ - done_); }
 
   const WalkProblem& problem_;
   const OptimizerOptions& options_;
@@ -103,6 +102,7 @@ class CurveSolves {
 SmoothingResult ParetoCurve(const WalkProblem& problem, const OptimizerOptions& options,
                             const ParetoOptions& pareto, SmoothingMonitor& monitor) {
   HALFSTEP_CHECK(pareto.points >= 2 && pareto.most_duration > 0.0, "points = " << pareto.points);
+  monitor.LimitTo(options.effort, options.deadline);
   const double planned = DurationOf(problem.Start());
   const SmoothingResult dichotomy = BeginWithDichotomy(problem, options.tolerance, monitor);
   if (!dichotomy.feasible || monitor.stopped()) {

@@ -15,7 +15,7 @@ struct ParetoOptions {
 /// longest, each from the one before. Every point was proved, with its least slack, by the
 /// problem's test. The result's parameters are those of the point at the dichotomy's own duration;
 /// `pareto` holds the points by duration, less those that a shorter walk is as safe as. All solves
-/// together have the deadline of `options`.
+/// together have the effort of `options`.
 SmoothingResult ParetoCurve(const WalkProblem& problem, const OptimizerOptions& options,
                             const ParetoOptions& pareto, SmoothingMonitor& monitor);
 

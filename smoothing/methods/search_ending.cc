@@ -1,7 +1,6 @@
 #include "smoothing/methods/search_ending.h"
 
-#include <cmath>
-
+#include "smoothing/methods/smoothing_monitor.h"
 #include "wpg/files/plain_locale.h"
 
 namespace halfstep {
@@ -22,6 +21,11 @@ void SearchEnding::Note(const opt::Solution& solution) {
   last_violated = violated ? solution.worst_row : "";
 }
 
+void SearchEnding::NoteCut(const SmoothingMonitor& monitor) {
+  cut = monitor.StopEnding();
+  why_cut = monitor.StopReason();
+}
+
 opt::Ending SearchEnding::Ending() const {
   using opt::Ending;
   if (!called) return Ending::kNotRun;
@@ -29,20 +33,15 @@ opt::Ending SearchEnding::Ending() const {
     if (last_ending == Ending::kInvalidInput) return Ending::kInvalidInput;
     return all_failed ? Ending::kFailed : Ending::kNoImprovement;
   }
-  if (stopped) return Ending::kInterrupted;
-  if (past_deadline()) return Ending::kDeadline;
+  if (cut != Ending::kNotRun) return cut;
   const bool unfinished = exhausted || last_violation > 0.0 || opt::DidNotWork(last_ending);
   return unfinished ? Ending::kLimit : Ending::kConverged;
 }
 
 std::string SearchEnding::Sentence() const {
   PlainStream why;
-  if (stopped) {
-    why << "stopped from outside";
-  } else if (past_deadline()) {
-    why << "the deadline ";
-    if (std::isfinite(deadline)) why << "of " << deadline << " s ";
-    why << "passed";
+  if (cut != opt::Ending::kNotRun) {
+    why << why_cut;
   } else if (last_ending == opt::Ending::kInvalidInput) {
     why << solver << " refused the program";
   } else {
@@ -59,8 +58,8 @@ std::string SearchEnding::Sentence() const {
         << last_violation;
   }
   why << "; " << solver << " last ended " << opt::Name(last_ending);
-  // What was left of the deadline for the last round is nobody's concern.
-  if (last_ending != opt::Ending::kDeadline) why << ": " << last_message;
+  // What was left of the effort for the last round is nobody's concern.
+  if (cut == opt::Ending::kNotRun) why << ": " << last_message;
   return why.str();
 }
 

@@ -1,21 +1,21 @@
 #pragma once
 
-#include <limits>
 #include <string>
 
 #include "opt/solvers/solution.h"
 
 namespace halfstep {
 
+class SmoothingMonitor;
+
 /// What is known when a search by a solver, in rounds from several starts, is over.
 struct SearchEnding {
-  std::string solver;                                         ///< by its name
-  bool stopped = false;                                       ///< from outside
-  bool deadline_passed = false;                               ///< before all rounds were done
-  double deadline = std::numeric_limits<double>::infinity();  ///< that was given [s], for messages
-  bool exhausted = false;                                     ///< all rounds from a start were used
-  bool called = false;                                        ///< the solver, at least once
-  bool all_failed = true;                                     ///< every solve ended kFailed
+  std::string solver;                      ///< by its name
+  opt::Ending cut = opt::Ending::kNotRun;  ///< what cut it off; kNotRun: nothing
+  std::string why_cut = {};                ///< the same in words
+  bool exhausted = false;                  ///< all rounds from a start were used
+  bool called = false;                     ///< the solver, at least once
+  bool all_failed = true;                  ///< every solve ended kFailed
   bool own = false;  ///< the result comes from the search, and beats what it began with
   opt::Ending last_ending = opt::Ending::kNotRun;  ///< of the last solve
   std::string last_message = {};                   ///< the solver's own words about the last solve
@@ -27,8 +27,9 @@ struct SearchEnding {
   std::string kept = {};
 
   void Note(const opt::Solution& solution);  ///< takes note of a solve
-  /// Whether the deadline ended it.
-  bool past_deadline() const { return deadline_passed || last_ending == opt::Ending::kDeadline; }
+  /// Takes note that the search is to end: by the caller, by the clock or because its effort is
+  /// used.
+  void NoteCut(const SmoothingMonitor& monitor);
 
   /// How the whole search ended, as in SmoothingResult::ending.
   opt::Ending Ending() const;

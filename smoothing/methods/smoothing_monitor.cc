@@ -15,7 +15,8 @@ using opt::Ending;
 MonitorOptions SmoothingMonitor::Part(double from, double to) const {
   MonitorOptions part{.stop = options_.stop,
                       .stop_proof = options_.stop_proof,
-                      .deadline = Remaining(),
+                      .effort = EffortLeft(),
+                      .deadline = options_.deadline - Seconds(),
                       .workers = options_.workers};
   if (options_.progress) {
     part.progress = [this, from, to](double done) { Progress(from + (to - from) * done); };
@@ -63,9 +64,26 @@ void SmoothingMonitor::BeginAccepted(const WalkProblem& problem, AcceptedWalk st
   accepted_ = std::move(start);
 }
 
-void SmoothingMonitor::Count(long instants, long collision_queries) {
-  result_.instants += instants;
+void SmoothingMonitor::Count(const Work& work, long collision_queries) {
+  result_.work += work;
   result_.collision_queries += collision_queries;
+}
+
+Work SmoothingMonitor::work() const {
+  Work work = result_.work;
+  if (scratch_) work += scratch_->work;
+  return work;
+}
+
+Ending SmoothingMonitor::StopEnding() const {
+  if (interrupted()) return Ending::kInterrupted;
+  return cut_off() ? Ending::kDeadline : Ending::kLimit;
+}
+
+std::string SmoothingMonitor::StopReason() const {
+  if (interrupted()) return "stopped from outside";
+  return cut_off() ? Formatted("ended by the clock: the deadline of %g s passed", deadline())
+                   : Formatted("the effort of %g was used", effort());
 }
 
 void SmoothingMonitor::Require(const HomotopyParameters& candidate) const {
@@ -126,7 +144,8 @@ void SmoothingMonitor::Adopt(const AcceptedWalk& walk, double cost, double durat
 
 void SmoothingMonitor::Record(SmoothingIterate iterate) {
   iterate.wall = Seconds();
-  iterate.instants = instants();
+  iterate.instants = work().evaluated();
+  iterate.effort = work().effort();
   iterate.incumbent_duration = duration_;
   iterate.incumbent_cost = result_.cost;
   result_.iterates.push_back(std::move(iterate));
@@ -154,7 +173,7 @@ SmoothingResult SmoothingMonitor::Finish(Ending ending, const std::string& messa
   }
   result_.ending = ending;
   result_.message = message;
-  Count(scratch_->instants, scratch_->bodies.queries);
+  Count(scratch_->work, scratch_->bodies.queries);
   scratch_.reset();
   result_.wall = Seconds();
   return std::move(result_);

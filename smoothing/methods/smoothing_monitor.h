@@ -21,11 +21,13 @@ struct MonitorOptions {
   std::function<void(double)> progress = {};  ///< called with the fraction done
   std::stop_token stop = {};                  ///< ends the search; what was found stays
   std::stop_token stop_proof = {};            ///< comes later; also ends a proof that is under way
-  /// Ends the search, too [s]: counted from when the monitor is made. A proof that is under way
-  /// then is finished.
+  /// Work after which the search ends (Work::effort). A proof that is under way then is finished.
+  double effort = std::numeric_limits<double>::infinity();
+  /// An emergency stop [s], counted from when the monitor is made: what it ends is not the same
+  /// twice.
   double deadline = std::numeric_limits<double>::infinity();
   /// Threads that may be used beside the caller's, by one search at a time; null: none. What a
-  /// search finds does not depend on them unless a deadline ends it.
+  /// search finds does not depend on them.
   std::shared_ptr<Workers> workers = {};
   /// Called with every new incumbent, by the caller's thread or, while that waits, by a worker.
   std::function<void(const HomotopyParameters&)> on_incumbent = {};
@@ -40,12 +42,15 @@ class SmoothingMonitor {
   SmoothingMonitor() : SmoothingMonitor(MonitorOptions{}) {}
   /// How long it may take, and whom to tell.
   explicit SmoothingMonitor(MonitorOptions options) : options_(std::move(options)) {}
-  /// Options for a smoother that is called within this one: it stops with this one, at the same
-  /// deadline, and its progress is reported as the part [from, to] of this one's.
+  /// Options for a smoother that is called within this one: it has the effort that is left, stops
+  /// with this one, and its progress is reported as the part [from, to] of this one's.
   MonitorOptions Part(double from, double to) const;
 
-  /// The search ends after `seconds` at the latest, counted from when the monitor was made.
-  void LimitTo(double seconds) { options_.deadline = std::min(options_.deadline, seconds); }
+  /// The search ends at this effort at the latest, and at this deadline [s].
+  void LimitTo(double effort, double deadline = std::numeric_limits<double>::infinity()) {
+    options_.effort = std::min(options_.effort, effort);
+    options_.deadline = std::min(options_.deadline, deadline);
+  }
 
   /// Forgets everything and begins at `start`.
   void Begin(const WalkProblem& problem, const HomotopyParameters& start);
@@ -57,33 +62,37 @@ class SmoothingMonitor {
   /// The result when BeginFeasibly returned false: the start, not feasible.
   SmoothingResult Refusal() { return Finish(opt::Ending::kNotRun, refusal_); }
 
-  /// Whether the search is to end: the caller asked for it, or the deadline has passed.
-  bool stopped() const { return interrupted() || Remaining() <= 0.0; }
+  /// Whether the search is to end: its effort is used, the caller asked for it, or the deadline has
+  /// passed.
+  bool stopped() const { return cut_off() || EffortLeft() <= 0.0; }
+  /// Whether it is to end at a moment that no work tells: by the caller, or by the clock.
+  bool cut_off() const { return interrupted() || Seconds() >= options_.deadline; }
   bool interrupted() const { return options_.stop.stop_requested(); }  ///< the caller asked for it
   std::stop_token stop() const { return options_.stop; }               ///< of the caller
   Workers* workers() const { return options_.workers.get(); }  ///< of the caller; null: none
   /// How a search ends that stopped() ended, and the words for it.
-  opt::Ending StopEnding() const {
-    return interrupted() ? opt::Ending::kInterrupted : opt::Ending::kDeadline;
-  }
-  /// The same in words, for the result's message.
-  std::string StopReason() const {
-    return interrupted() ? "stopped from outside" : "the deadline passed";
-  }
+  opt::Ending StopEnding() const;
+  std::string StopReason() const;  ///< the same in words, for the result's message
   double Seconds() const { return stopwatch_.Seconds(); }  ///< since the monitor was made [s]
-  double Remaining() const { return options_.deadline - Seconds(); }  ///< to the deadline [s]
+  double deadline() const { return options_.deadline; }    ///< since then [s]; +∞: none
+  double effort() const { return options_.effort; }        ///< after which it ends; +∞: none
+  /// What is left of it.
+  double EffortLeft() const { return options_.effort - work().effort(); }
   /// Tells the caller which fraction ∈ [0, 1] is done.
   void Progress(double done) const {
     if (options_.progress) options_.progress(done);
   }
 
+  /// Tells the caller which part of the effort is used.
+  void ShowEffort() const { Progress(std::min(1.0, work().effort() / options_.effort)); }
+
   /// To be handed to every check of the problem's test; it counts their work.
   MarginEvaluator::Scratch* scratch() { return &*scratch_; }
   /// Adds work that scratch() did not count.
-  void Count(long instants, long collision_queries);
+  void Count(const Work& work, long collision_queries);
   /// Adds the work of another search that was part of this one.
-  void Count(const SmoothingResult& part) { Count(part.instants, part.collision_queries); }
-  long instants() const { return result_.instants + scratch_->instants; }  ///< evaluated so far
+  void Count(const SmoothingResult& part) { Count(part.work, part.collision_queries); }
+  Work work() const;  ///< done so far
 
   /// The best walk that was accepted; none: not even the start.
   const std::optional<AcceptedWalk>& accepted() const { return accepted_; }

@@ -39,7 +39,8 @@ struct ParetoPoint {
 /// One candidate that a method tried.
 struct SmoothingIterate {
   double wall = 0.0;                ///< since the method began [s]
-  long instants = 0;                ///< instants evaluated so far
+  long instants = 0;                ///< evaluated so far (Work::evaluated)
+  double effort = 0.0;              ///< used so far (Work::effort)
   double candidate_duration = 0.0;  ///< [s]
   std::optional<double> candidate_worst_margin =
       std::nullopt;  ///< MarginLimits::Slack where it was violated
@@ -74,7 +75,7 @@ struct SmoothingResult {
   std::vector<JunctionResult> junctions;   ///< one for each junction, in their order
   std::vector<SmoothingIterate> iterates;  ///< in the order of time; not all methods have any
   std::vector<ParetoPoint> pareto;         ///< by duration; empty but for ParetoCurve
-  long instants = 0;                       ///< instants evaluated
+  Work work = {};                          ///< that was done
   long raw_infeasible = 0;       ///< candidates of a solver that were not feasible themselves
   bool raw_end_feasible = true;  ///< the solver's end was accepted, or not better and not tried
   long collision_queries = 0;    ///< of bodies with the scene or each other, not culled

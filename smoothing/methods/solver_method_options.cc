@@ -1,6 +1,8 @@
 #include "smoothing/methods/solver_method_options.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -112,18 +114,18 @@ void DeclareSearch(Fields& fields, OptimizerOptions* o) {
        .min = 0,
        .max = 1000});
   fields.Integer("rounds", &o->rounds,
-                 {.meaning = "solves from each start, each looking closer; the best walk is such a "
-                             "start up to a quarter as many times",
-                  .min = 1,
-                  .max = 100});
+                 {.meaning = "solves from each start, each looking closer", .min = 1, .max = 100});
   fields.Boolean("windows", &o->windows,
-                 {.meaning = "`fastest` over forms or footsteps, more than 6 half-steps and "
-                             "`halfstep/sqp`: search in windows first"});
-  fields.Boolean("planned_start", &o->planned_start,
-                 {.meaning = "solve also from the planned motion, not only from the dichotomy's "
-                             "result"});
-  fields.Integer("random_starts", &o->random_starts,
-                 {.meaning = "further starts, drawn from `seed`", .min = 0, .max = 1000});
+                 {.meaning = "`halfstep/sqp` searches long walks in windows first"});
+  std::string start(Name(o->start));
+  fields.Text(
+      "start", &start,
+      {.meaning = "where rounds begin: each half-step in the typical form of fast walks, "
+                  "the dichotomy's walk, which `safest` always takes, or the planned motion",
+       .choices = {"typical", "dichotomy", "planned"}});
+  for (SearchStart each : {SearchStart::kTypical, SearchStart::kDichotomy, SearchStart::kPlanned}) {
+    if (start == Name(each)) o->start = each;
+  }
   fields.Integer(
       "max_iterations", &o->max_iterations,
       {.meaning =
@@ -131,11 +133,19 @@ void DeclareSearch(Fields& fields, OptimizerOptions* o) {
            "`halfstep/sqp`, 30 for others",
        .min = 0,
        .max = 100000});
-  fields.Number("deadline_s", &o->deadline,
-                {.meaning = "of all solves of a method together; of `dichotomy/uniform`",
-                 .unit = "s",
+  fields.Number("effort", &o->effort,
+                {.meaning = "work after which a method ends, `dichotomy/uniform`, too; 1 is about "
+                            "a second of one core of 2026",
                  .min = 0.001,
                  .max = 86400});
+  double deadline = std::isfinite(o->deadline) ? o->deadline : 0.0;
+  fields.Number("deadline_s", &deadline,
+                {.meaning = "emergency stop of a method by the clock, whose walk is not the same "
+                            "twice; 0: none",
+                 .unit = "s",
+                 .min = 0,
+                 .max = 86400});
+  o->deadline = deadline > 0.0 ? deadline : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace
@@ -174,10 +184,11 @@ void DeclareSolverRequest(Fields& fields, SolverMethodOptions c) {
   fields.Text("objective", &c.program, {});
   fields.Number("duration_limit_s", &o.duration_limit, {});
   fields.Integer("instants", &o.program.watch.instants, {});
-  fields.Integer("random_starts", &o.random_starts, {});
+  std::string start(Name(o.start));
+  fields.Text("start", &start, {});
   fields.Integer("rounds", &o.rounds, {});
   fields.Integer("max_iterations", &o.max_iterations, {});
-  fields.Number("deadline_s", &o.deadline, {});
+  fields.Number("effort", &o.effort, {});
   fields.Number("tolerance_s", &o.tolerance, {});
 }
 

@@ -75,11 +75,11 @@ Search DichotomyWith(const std::function<void(DichotomyOptions*)>& change) {
 }
 
 // What other methods are compared with. The families are those of smoothing.optimizer; `uniform`
-// takes heights and durations both when it names neither. So is the deadline.
+// takes heights and durations both when it names neither. So is the effort.
 SmoothingResult Uniform(const WalkProblem& problem, const MethodOptions& options,
                         SmoothingMonitor& monitor) {
   const OptimizerOptions optimizer = options.Get(OptimizerGroup()).options;
-  monitor.LimitTo(optimizer.deadline);
+  monitor.LimitTo(optimizer.effort, optimizer.deadline);
   const ParameterChoice& choice = optimizer.program.parameters;
   const bool neither = !choice.heights && !choice.durations;
   return UniformScan(problem,
@@ -91,14 +91,23 @@ SmoothingResult Uniform(const WalkProblem& problem, const MethodOptions& options
 
 SmoothingResult ByWindows(const WalkProblem& problem, const MethodOptions& options,
                           SmoothingMonitor& monitor) {
-  HorizonOptions horizon = options.Get(HorizonGroup());
-  const SolverMethodOptions optimizer = options.Get(OptimizerGroup());
-  horizon.program = optimizer.options.program;
+  const HorizonOptions horizon = options.Get(HorizonGroup());
+  SolverMethodOptions optimizer = options.Get(OptimizerGroup());
+  OptimizerOptions& o = optimizer.options;
   // A curve is made of programs that belong to the whole walk, as `safest` does.
-  if (optimizer.program == kPareto) horizon.program.kind = ProgramKind::kSafest;
-  horizon.deadline = optimizer.options.deadline;
-  horizon.tolerance = optimizer.options.tolerance;
-  return Horizon(problem, horizon, monitor);
+  if (optimizer.program == kPareto || o.program.kind == ProgramKind::kSafest) {
+    if (!monitor.BeginFeasibly(problem, problem.Start())) return monitor.Refusal();
+    return monitor.Finish(opt::Ending::kInvalidInput,
+                          "halfstep/horizon has no program `safest` or `pareto` (valid: fastest, "
+                          "smooth); the walk is the planned one");
+  }
+  o.solver = "halfstep/sqp";
+  o.own_solver.reset();
+  o.only = SearchStage{.window = horizon.window,
+                       .step = horizon.step,
+                       .passes = horizon.passes,
+                       .rounds = o.tuning.window_rounds};
+  return OptimizeOverlaps(problem, o, monitor);
 }
 
 void RequestSolver(Fields& fields, const MethodOptions& options) {
@@ -114,7 +123,7 @@ void RequestHorizon(Fields& fields, const MethodOptions& options) {
   fields.Integer("window", &horizon.window, {});
   fields.Integer("step", &horizon.step, {});
   fields.Integer("passes", &horizon.passes, {});
-  fields.Number("deadline_s", &optimizer.options.deadline, {});
+  fields.Number("effort", &optimizer.options.effort, {});
   fields.Number("tolerance_s", &optimizer.options.tolerance, {});
 }
 
@@ -126,7 +135,7 @@ void RequestGiven(Fields& fields, const MethodOptions&) {
 std::shared_ptr<const Smoother> SolverMethod(const std::string& solver,
                                              const std::shared_ptr<const opt::Solver>& own = {}) {
   return std::make_shared<NamedSmoother>(
-      solver, "smoothing.optimizer.program by this solver, from the dichotomy's result",
+      solver, "smoothing.optimizer.program by this solver, from typical forms",
       Groups{OptimizerGroup()}, BySolver(solver, own), RequestSolver);
 }
 

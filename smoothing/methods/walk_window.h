@@ -26,11 +26,11 @@ struct WalkWindow {
   void Paste(const HomotopyParameters& part, HomotopyParameters* walk) const;
 };
 
-/// The window of the half-steps first … last of the walk `at`: parameters of every family may change
-/// that belong to none but these, and the overlap before `first`; but nothing that `problem` fixes.
-/// A duration stays, too, beside an overlap that stays and is longer than the planned durations
-/// allow. Precondition (std::logic_error): first is even, last is odd, and they are half-steps of
-/// the problem.
+/// The window of the half-steps first … last of the walk `at`: parameters of every family may
+/// change that belong to none but these, and the overlap before `first`; but nothing that `problem`
+/// fixes. A duration stays, too, beside an overlap that stays and is longer than the planned
+/// durations allow. Precondition (std::logic_error): first is even, last is odd, and they are
+/// half-steps of the problem.
 WalkWindow WindowOf(const WalkProblem& problem, const HomotopyParameters& at, int first, int last);
 
 }  // namespace halfstep

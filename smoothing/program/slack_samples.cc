@@ -9,7 +9,7 @@ namespace halfstep {
 
 std::vector<LeastSlacks> SampledSlacks(const SuperposedWalk& walk, const MarginEvaluator& evaluator,
                                        const StretchRange& range, const SampleOptions& options,
-                                       Workers* workers) {
+                                       Workers* workers, Work* work) {
   constexpr int kAtOnce = 8;  // samples that a thread takes
   const int n = static_cast<int>(std::ceil((walk.duration() - options.begin) / options.period));
   std::vector<LeastSlacks> samples(static_cast<size_t>(n) + 1);
@@ -31,6 +31,9 @@ std::vector<LeastSlacks> SampledSlacks(const SuperposedWalk& walk, const MarginE
     }
     return true;
   });
+  for (const SlackEvaluator& of_thread : slacks) {
+    if (work != nullptr) *work += of_thread.work();
+  }
   return samples;
 }
 

@@ -21,10 +21,10 @@ struct SampleOptions {
 
 /// Least slacks of a walk at `begin`, a `period` later, … and at its end; the cutoff at instants of
 /// half-steps that are not in `range`. Says nothing of what lies between. Samples are shared out
-/// among `workers` (may be null).
+/// among `workers` (may be null), and counted in `work` (may be null).
 std::vector<LeastSlacks> SampledSlacks(const SuperposedWalk& walk, const MarginEvaluator& evaluator,
                                        const StretchRange& range, const SampleOptions& options,
-                                       Workers* workers);
+                                       Workers* workers, Work* work = nullptr);
 
 /// The least slack of the families that have a local minimum in time at sample i; none:
 /// `otherwise`.

@@ -225,6 +225,12 @@ void WatchedInstants::EvaluateOn(const SuperposedWalk& walk, const Eigen::Vector
                      nonzeros ? nonzeros->data() + Nth(first, k) : nullptr);
     return true;
   });
+  Count(slacks);
+}
+
+void WatchedInstants::Count(const std::vector<SlackEvaluator>& slacks) const {
+  if (work_ == nullptr) return;
+  for (const SlackEvaluator& of_thread : slacks) *work_ += of_thread.work();
 }
 
 std::vector<SlackEvaluator> WatchedInstants::Evaluators(double cutoff,
@@ -242,6 +248,7 @@ double WatchedInstants::LeastSlack(const HomotopyParameters& parameters,
     Nth(least, k) = LeastSlackOf(walk, k, of, &Nth(slacks, thread));
     return true;
   });
+  Count(slacks);
   return std::ranges::min(least);
 }
 

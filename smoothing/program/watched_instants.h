@@ -59,6 +59,7 @@ class WatchedInstants {
   /// Number of entries of the Jacobian: every row has those of its band.
   size_t num_nonzeros() const;
 
+  const WatchOptions& options() const { return options_; }  ///< with the present sharpness
   double sharpness() const { return options_.sharpness; }  ///< ρ [1 / scale of a slack]
   /// Larger: nearer to the least slack, and less smooth. Every reserve is 3/ρ from now on.
   void SetSharpness(double sharpness);
@@ -69,6 +70,8 @@ class WatchedInstants {
   /// Half-steps and samples are shared out among `workers` (borrowed; null: none) from now on. What
   /// is found is the same, to the bit.
   void SetWorkers(Workers* workers) { workers_ = workers; }
+  /// What is looked at is counted in `work` (borrowed; null: nowhere) from now on.
+  void SetWork(Work* work) { work_ = work; }
 
   /// Adds an instant at which a slack turned out to be small, in the walk or in the stop branch
   /// after its half-step. Returns false when it, or one very near, is watched already.
@@ -77,8 +80,8 @@ class WatchedInstants {
   /// those where a family's least slack has a local minimum in time, and some around it where that
   /// is near the `level` that all slacks are to reach. With `row_per_instant`, instants added so
   /// for earlier walks are dropped, and instants with no slack near the level get no row. Returns
-  /// the least slack sampled.
-  double Focus(const SuperposedWalk& walk, double period, double level);
+  /// the least slack sampled in each half-step, at most 1 above the level.
+  std::vector<double> Focus(const SuperposedWalk& walk, double period, double level);
   /// Adapts the reserves (RowReserves::Learn) to the walk of the last Focus: a proof refused it for
   /// `refusals`, none where it was proved; not `tried`: it was only sampled. Only with
   /// `row_per_instant`, and after a Focus; else nothing changes.
@@ -115,9 +118,11 @@ class WatchedInstants {
   bool WatchesBranch(int half_step) const;
   bool Look(const SuperposedWalk& walk, const LocalTime& at, bool of_branch, Instant::Why why);
   // Focus on the walk, or on the new part of the stop branch after a half-step.
-  double FocusOn(const SuperposedWalk& walk, std::optional<int> branch, double period,
-                 double level);
+  void FocusOn(const SuperposedWalk& walk, std::optional<int> branch, double period, double level,
+               std::vector<double>* least);
   void CountRows();
+  // Adds what was looked at with `slacks` to the work.
+  void Count(const std::vector<SlackEvaluator>& slacks) const;
   // One for each thread that SetWorkers allows.
   std::vector<SlackEvaluator> Evaluators(double cutoff, const ParameterFilter& wanted) const;
   double LeastSlackOf(const SuperposedWalk& walk, int half_step,
@@ -137,6 +142,7 @@ class WatchedInstants {
   WatchOptions options_;
   bool footsteps_move_ = false;  // whether any is a variable
   Workers* workers_ = nullptr;
+  Work* work_ = nullptr;
   std::vector<std::vector<int>> bands_;
   std::vector<std::vector<Instant>> instants_;  // by half-step
   std::vector<int> first_rows_;                 // of each half-step, and the number of all

@@ -40,7 +40,7 @@ bool WatchedInstants::Look(const SuperposedWalk& walk, const LocalTime& at, bool
   return true;
 }
 
-double WatchedInstants::Focus(const SuperposedWalk& walk, double period, double level) {
+std::vector<double> WatchedInstants::Focus(const SuperposedWalk& walk, double period, double level) {
   // Rows by half-step cost no more for looking at more instants; long rounds need them.
   if (options_.row_per_instant) {
     NoteRows(walk, level);
@@ -48,23 +48,24 @@ double WatchedInstants::Focus(const SuperposedWalk& walk, double period, double 
       std::erase_if(instants, [](const Instant& i) { return i.why == Instant::Why::kMinimum; });
     }
   }
-  double least = FocusOn(walk, std::nullopt, period, level);
+  std::vector<double> least(instants_.size(), level + kFar);
+  FocusOn(walk, std::nullopt, period, level, &least);
   for (int k = 0; k + 1 < walk.num_half_steps(); ++k) {
     if (!WatchesBranch(k) || walk.end_of(k) <= walk.start_of(k + 1)) continue;
-    least = std::min(least, FocusOn(walk, k, period, level));
+    FocusOn(walk, k, period, level, &least);
   }
   CountRows();
   return least;
 }
 
-double WatchedInstants::FocusOn(const SuperposedWalk& walk, std::optional<int> branch,
-                                double period, double level) {
+void WatchedInstants::FocusOn(const SuperposedWalk& walk, std::optional<int> branch, double period,
+                              double level, std::vector<double>* least) {
   const double far = level + kFar;
   const double begin = branch ? walk.start_of(*branch + 1) : 0.0;
   const double end = branch ? walk.end_of(*branch) : walk.duration();
   const std::vector<LeastSlacks> samples =
       SampledSlacks(branch ? walk.StopBranch(*branch) : walk, evaluator_, options_.range,
-                    {.begin = begin, .period = period, .cutoff = far}, workers_);
+                    {.begin = begin, .period = period, .cutoff = far}, workers_, work_);
   const int last = static_cast<int>(samples.size()) - 1;
   const auto lowest = [&samples](int i) { return std::ranges::min(Nth(samples, i)); };
   ParameterRates moving;
@@ -77,13 +78,10 @@ double WatchedInstants::FocusOn(const SuperposedWalk& walk, std::optional<int> b
       instant.far = lowest(i) >= far && lowest(std::min(i + 1, last)) >= far;
     }
   }
-  double least = far;
   for (int i = 0; i <= last; ++i) {
-    least = std::min(least, lowest(i));
-    if (options_.row_per_instant) {
-      const double t = std::min(begin + i * period, end);
-      NoteSample(branch ? *branch : walk.Locate(t).half_step, Nth(samples, i), level);
-    }
+    const int k = branch ? *branch : walk.Locate(std::min(begin + i * period, end)).half_step;
+    Nth(*least, k) = std::min(Nth(*least, k), lowest(i));
+    if (options_.row_per_instant) NoteSample(k, Nth(samples, i), level);
     const double minimum = LocalMinimum(samples, i, far);
     if (minimum >= far) continue;
     // It moves with the parameters.
@@ -94,7 +92,6 @@ double WatchedInstants::FocusOn(const SuperposedWalk& walk, std::optional<int> b
       Look(walk, at, branch.has_value(), Instant::Why::kMinimum);
     }
   }
-  return least;
 }
 
 void WatchedInstants::NoteRows(const SuperposedWalk& walk, double level) {

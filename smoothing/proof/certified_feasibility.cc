@@ -76,7 +76,8 @@ struct CertifiedFeasibility::Settled {
   bool stopped = false;  // before it began
   std::optional<Margin> violated;
   Certificate rows;
-  long instants = 0, queries = 0;
+  Work work;
+  long queries = 0;
 };
 
 CertifiedFeasibility::CertifiedFeasibility(MarginEvaluator evaluator,
@@ -125,7 +126,7 @@ Feasibility CertifiedFeasibility::Decide(const SuperposedWalk& walk, const TimeS
     const int met = ProveOpen(walk, stop, &open, scratch, certificate != nullptr, &settled);
     for (int i = 0; i <= met && i < std::ssize(open); ++i) {
       const Settled& one = Nth(settled, i);
-      scratch->instants += one.instants;
+      scratch->work += one.work;
       scratch->bodies.queries += one.queries;
       if (certificate == nullptr) continue;
       certificate->insert(certificate->end(), one.rows.begin(), one.rows.end());
@@ -156,7 +157,8 @@ int CertifiedFeasibility::ProveOpen(const SuperposedWalk& walk, const std::stop_
   while (std::ssize(scratch->of_others) < NumThreads(scratch->workers) - 1) {
     scratch->of_others.push_back(evaluator_.MakeScratch());
   }
-  const long instants = scratch->instants, queries = scratch->bodies.queries;
+  const Work work = scratch->work;
+  const long queries = scratch->bodies.queries;
   const int met =
       RunWith(scratch->workers, static_cast<int>(open->size()), [&](int index, int thread) {
         Open& now = Nth(*open, index);
@@ -167,16 +169,17 @@ int CertifiedFeasibility::ProveOpen(const SuperposedWalk& walk, const std::stop_
         }
         MarginEvaluator::Scratch& own =
             thread == 0 ? *scratch : Nth(scratch->of_others, thread - 1);
-        const long instants_before = own.instants, queries_before = own.bodies.queries;
+        const Work work_before = own.work;
+        const long queries_before = own.bodies.queries;
         found.violated = statements_.Prove(walk, now.begin, now.end, &now.groups, &own,
                                            with_rows ? &found.rows : nullptr);
-        found.instants = own.instants - instants_before;
+        found.work = own.work - work_before;
         found.queries = own.bodies.queries - queries_before;
         return !found.violated &&
                (now.groups.empty() || now.end - now.begin >= options_.resolution);
       });
   // What was done beyond that interval depends on the threads.
-  scratch->instants = instants;
+  scratch->work = work;
   scratch->bodies.queries = queries;
   return met;
 }

@@ -37,7 +37,7 @@ std::optional<Margin> IntervalStatements::Prove(const SuperposedWalk& walk, doub
                                                 double end, OpenGroups* open,
                                                 MarginEvaluator::Scratch* scratch,
                                                 Certificate* rows) const {
-  ++scratch->instants;
+  ++scratch->work.intervals;
   IntervalMotion motion;
   BoundMotion(bounds_, walk, begin, end, &motion);
   const double middle = 0.5 * (begin + end);

@@ -83,7 +83,7 @@ void CheckAll(benchmark::State& state, const SmoothedWalk& among, const Feasibil
     MarginEvaluator::Scratch scratch = among.evaluator->MakeScratch();
     const Feasibility answer = test.Check(*among.walk, {0.0, among.walk->duration()}, &scratch);
     if (answer.verdict != Verdict::kFeasible) state.SkipWithError("not feasible");
-    instants += scratch.instants;
+    instants += scratch.work.evaluated();
   }
   Report(state, among, instants);
 }
@@ -109,7 +109,7 @@ void CertificateRows(benchmark::State& state) {
   for (auto _ : state) {
     MarginEvaluator::Scratch scratch = among.evaluator->MakeScratch();
     benchmark::DoNotOptimize(test.Certify(*among.walk, &scratch, &certificate));
-    instants += scratch.instants;
+    instants += scratch.work.evaluated();
   }
   Report(state, among, instants);
   state.counters["rows"] = static_cast<double>(certificate.size());
@@ -129,7 +129,7 @@ void CertifyOneWindow(benchmark::State& state) {
     junction = (junction + 1) % (kHalfSteps - 1);
   }
   state.counters["instants"] =
-      static_cast<double>(scratch.instants) / static_cast<double>(state.iterations());
+      static_cast<double>(scratch.work.evaluated()) / static_cast<double>(state.iterations());
 }
 BENCHMARK(CertifyOneWindow)->Arg(1)->Arg(10)->Arg(50)->Unit(benchmark::kMillisecond);
 

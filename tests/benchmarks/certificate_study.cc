@@ -172,8 +172,8 @@ void Dichotomies() {
         "%-22s %7.3f s | %7.4f s %9ld %5.0f ms | %7.4f s %9ld %5.0f ms | %7.3f%%  %s; sampled "
         "one: %s\n",
         e.config.name.c_str(), SuperposedWalk(e.sequence, PlannedMotion(e.sequence)).duration(),
-        durations[0], results[0].instants, 1e3 * walls[0], durations[1], results[1].instants,
-        1e3 * walls[1], 100 * (durations[1] / durations[0] - 1),
+        durations[0], results[0].work.evaluated(), 1e3 * walls[0], durations[1],
+        results[1].work.evaluated(), 1e3 * walls[1], 100 * (durations[1] / durations[0] - 1),
         kVerdicts[static_cast<size_t>(again.verdict)],
         kVerdicts[static_cast<size_t>(other.verdict)]);
     if (other.verdict != Verdict::kFeasible) {

@@ -61,7 +61,7 @@ void Study(const std::string& method, const std::string& variables, bool arc, in
   const CertifiedFeasibility test({e.robot, e.scene, e.config.smoothing.limits}, {});
   MethodOptions options;
   OptimizerOptions& optimizer = options.Edit(OptimizerGroup()).options;
-  optimizer.deadline = 1e4;
+  optimizer.effort = 1e4;
   ParameterChoice& choice = optimizer.program.parameters;
   choice = {};
   choice.heights = variables.find('h') != std::string::npos;

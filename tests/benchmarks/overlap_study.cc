@@ -1,12 +1,12 @@
 // What the overlap programs find, and what they cost. Prints the tables of
 // notebooks-data/measurements.md, "What the programs find". Not a test.
-// Run: overlap_study table SCENARIO DEADLINE METHOD… (CSV: all variables and programs)
-//      overlap_study table SCENARIO:VARIABLES:PROGRAM DEADLINE METHOD…
+// Run: overlap_study table SCENARIO EFFORT METHOD… (CSV: all variables and programs)
+//      overlap_study table SCENARIO:VARIABLES:PROGRAM EFFORT METHOD…
 //      overlap_study grow METHOD N…                 (a straight walk of N half-steps)
-//      overlap_study reach METHOD[:ITERATIONS] DEADLINE SCENE…   (a config, bars:N or FILE.yaml:N)
-//      overlap_study solve SCENE METHOD VARIABLES KIND [DEADLINE]
+//      overlap_study reach METHOD[:ITERATIONS] EFFORT SCENE…   (a config, bars:N or FILE.yaml:N)
+//      overlap_study solve SCENE METHOD VARIABLES KIND [EFFORT]
 //      overlap_study rows CONFIG
-//      overlap_study threads METHOD THREADS SCENE…   (no deadline; the same again with one thread)
+//      overlap_study threads METHOD THREADS SCENE…   (the same again with one thread)
 
 #include <algorithm>
 #include <chrono>
@@ -90,7 +90,7 @@ ProgramKind KindOf(const std::string& name) {
 }
 
 void Solve(const std::string& config, const std::string& method, const std::string& variables,
-           const std::string& kind, double deadline) {
+           const std::string& kind, double effort) {
   const Experiment e = LoadScene(config);
   const MarginEvaluator evaluator(e.robot, e.scene, e.config.smoothing.limits);
   const CertifiedFeasibility test(evaluator, {});
@@ -99,7 +99,7 @@ void Solve(const std::string& config, const std::string& method, const std::stri
   options.program.kind = KindOf(kind);
   options.program.parameters.heights = variables.find('h') != std::string::npos;
   options.program.parameters.durations = variables.find('t') != std::string::npos;
-  options.deadline = deadline;
+  options.effort = effort;
   const double begin = Now();
   const SmoothingResult result = Smoothed(OptimizeOverlaps, ProblemOf(e.sequence, test), options);
   for (const SmoothingIterate& i : result.iterates) {
@@ -129,7 +129,7 @@ struct Case {
 };
 
 Case SolveCase(const Experiment& e, const MarginEvaluator& evaluator, const std::string& method,
-               const std::string& variables, const std::string& kind, double deadline) {
+               const std::string& variables, const std::string& kind, double effort) {
   const CertifiedFeasibility test(evaluator, {});
   Case done{.method = method, .result = {}};
   std::vector<HomotopyParameters> incumbents;
@@ -139,7 +139,7 @@ Case SolveCase(const Experiment& e, const MarginEvaluator& evaluator, const std:
   optimizer.program.parameters = {};
   optimizer.program.parameters.heights = variables.find('h') != std::string::npos;
   optimizer.program.parameters.durations = variables.find('t') != std::string::npos;
-  optimizer.deadline = deadline;
+  optimizer.effort = effort;
   SmoothingMonitor monitor(
       {.on_incumbent = [&](const HomotopyParameters& p) { incumbents.push_back(p); }});
   done.result =
@@ -156,7 +156,7 @@ Case SolveCase(const Experiment& e, const MarginEvaluator& evaluator, const std:
   return done;
 }
 
-void Table(const std::string& what, double deadline, const std::vector<std::string>& methods) {
+void Table(const std::string& what, double effort, const std::vector<std::string>& methods) {
   const std::string config = what.substr(0, what.find(':'));
   const std::string only = what.substr(config.size());
   std::printf(
@@ -174,7 +174,7 @@ void Table(const std::string& what, double deadline, const std::vector<std::stri
         const std::vector<std::string> solvers = opt::SolverNames();
         const bool solver = std::find(solvers.begin(), solvers.end(), method) != solvers.end();
         if (kind != "fastest" && !solver) continue;
-        cases.push_back(SolveCase(e, evaluator, method, variables, kind, deadline));
+        cases.push_back(SolveCase(e, evaluator, method, variables, kind, effort));
         best = std::min(best, cases.back().result.cost);
         shortest = std::min(shortest, DurationOf(cases.back().result.parameters));
       }
@@ -185,7 +185,7 @@ void Table(const std::string& what, double deadline, const std::vector<std::stri
         std::printf("%s,%s,%s,%s,%s,%s,%.4f,%.4f,%.5f,%ld,%zu,%ld,%s,%ld,%ld,%.3f", config.c_str(),
                     variables.c_str(), kind.c_str(), c.method.c_str(),
                     std::string(Name(r.ending)).c_str(), c.certified ? "true" : "false",
-                    DurationOf(r.parameters), r.cost, gap, r.instants, r.iterates.size(),
+                    DurationOf(r.parameters), r.cost, gap, r.work.evaluated(), r.iterates.size(),
                     r.raw_infeasible, r.raw_end_feasible ? "true" : "false", c.accepted, c.refuted,
                     r.wall);
         if (kind == "fastest") {
@@ -201,7 +201,7 @@ void Table(const std::string& what, double deadline, const std::vector<std::stri
 }
 
 // When a method's incumbent is within 5 % and 1 % of what it ends with, all variables free.
-void Reach(const std::string& what, const std::string& method, double deadline) {
+void Reach(const std::string& what, const std::string& method, double effort) {
   const Experiment e = LoadScene(what);
   const MarginEvaluator evaluator(e.robot, e.scene, e.config.smoothing.limits);
   const CertifiedFeasibility test(evaluator, {});
@@ -210,7 +210,7 @@ void Reach(const std::string& what, const std::string& method, double deadline) 
   if (options.solver != method)
     options.max_iterations = std::atoi(method.c_str() + options.solver.size() + 1);
   options.program.parameters.heights = options.program.parameters.durations = true;
-  options.deadline = deadline;
+  options.effort = effort;
   const double begin = Now();
   const double start = DurationOf(Smoothed(Dichotomy, ProblemOf(e.sequence, test), {}).parameters);
   const double dichotomy = Now() - begin;
@@ -233,8 +233,8 @@ void Reach(const std::string& what, const std::string& method, double deadline) 
       "%6.3f s (CPU %6.3f s), to 1 %% %6.3f s (CPU %6.3f s); %ld instants, %zu candidates, %ld "
       "refused\n",
       what.c_str(), method.c_str(), e.sequence.size(), start, dichotomy, end, r.wall, own,
-      TimeToWithin(r, end, 0.05), to(0.05), TimeToWithin(r, end, 0.01), to(0.01), r.instants,
-      r.iterates.size(), r.raw_infeasible);
+      TimeToWithin(r, end, 0.05), to(0.05), TimeToWithin(r, end, 0.01), to(0.01),
+      r.work.evaluated(), r.iterates.size(), r.raw_infeasible);
 }
 
 // What an iteration costs over n half-steps.
@@ -245,7 +245,7 @@ void Grow(const std::string& method, int n) {
   OptimizerOptions options;
   options.solver = method;
   options.program.parameters.heights = options.program.parameters.durations = true;
-  options.deadline = 20.0;
+  options.effort = 20.0;
   const double begin = Now();
   const SmoothingResult start = Smoothed(Dichotomy, ProblemOf(e.sequence, test), {});
   const double dichotomy = Now() - begin;
@@ -271,7 +271,7 @@ void Grow(const std::string& method, int n) {
     const double shortest = DurationOf(r.parameters);
     std::printf("  D %.3f, within 5%% %.2f s, 1%% %.2f s, all %.2f s, %ld instants", shortest,
                 TimeToWithin(r, shortest, 0.05), TimeToWithin(r, shortest, 0.01), r.wall,
-                r.instants);
+                r.work.evaluated());
   }
   std::printf("\n");
   std::fflush(stdout);
@@ -325,7 +325,7 @@ void Threads(const std::string& what, const std::string& method, int threads) {
   OptimizerOptions& optimizer = options.Edit(OptimizerGroup()).options;
   optimizer.program.parameters = {.heights = true, .durations = true};
   optimizer.rounds = 12;
-  optimizer.deadline = 1e4;
+  optimizer.effort = 1e4;
   std::vector<SmoothingResult> results;
   std::vector<double> proofs, own;
   for (const int n : {1, threads}) {
@@ -343,7 +343,7 @@ void Threads(const std::string& what, const std::string& method, int threads) {
     proofs.push_back(Now() - begin);
   }
   const bool same = results[0].parameters == results[1].parameters &&
-                    results[0].instants == results[1].instants &&
+                    results[0].work == results[1].work &&
                     results[0].iterates.size() == results[1].iterates.size() &&
                     results[0].collision_queries == results[1].collision_queries;
   std::printf("%-10s %-16s n %4d  D %.6f, %s;", what.c_str(), method.c_str(), e.sequence.size(),
@@ -380,7 +380,7 @@ int main(int argc, char** argv) {
     halfstep::Rows(arg(2, "bar_8cm"));
   } else {
     std::fprintf(stderr,
-                 "usage: overlap_study solve SCENE METHOD VARIABLES KIND [DEADLINE] | rows CONFIG\n"
+                 "usage: overlap_study solve SCENE METHOD VARIABLES KIND [EFFORT] | rows CONFIG\n"
                  "VARIABLES: o, oh, ot or oht (overlaps, heights, durations)\n");
     return 2;
   }

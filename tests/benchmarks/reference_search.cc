@@ -4,7 +4,6 @@
 #include <cmath>
 #include <random>
 #include <string>
-#include <utility>
 
 #include "smoothing/methods/accepted_in_parts.h"
 #include "smoothing/methods/dichotomy.h"
@@ -86,7 +85,7 @@ class Reference {
       monitor_.BeginAccepted(problem_, AcceptedInParts::Walk(*shortest));
     }
     monitor_.Count(dichotomy);
-    monitor_.Count(scratch.instants, scratch.bodies.queries);
+    monitor_.Count(scratch.work, scratch.bodies.queries);
     return starts;
   }
 
@@ -170,8 +169,9 @@ class Reference {
     const std::vector<int> indices =
         grid_.Solve(choices, before, [this] { return monitor_.stopped(); });
     const MarginEvaluator::Scratch& spent = grid_.scratch();
-    monitor_.Count(spent.instants - counted_.first, spent.bodies.queries - counted_.second);
-    counted_ = {spent.instants, spent.bodies.queries};
+    monitor_.Count(spent.work - counted_, spent.bodies.queries - counted_queries_);
+    counted_ = spent.work;
+    counted_queries_ = spent.bodies.queries;
     SmoothingIterate iterate{.candidate_duration = before};
     if (!indices.empty()) {
       const HomotopyParameters candidate = grid_.ParametersOf(choices, indices);
@@ -231,7 +231,8 @@ class Reference {
   DynamicProgram grid_;
   StretchProofs proofs_;
   std::mt19937_64 random_;
-  std::pair<long, long> counted_ = {0, 0};  // instants and queries of the grid
+  Work counted_;  // of the grid
+  long counted_queries_ = 0;
   double finest_ = 0.0;
   bool exhausted_ = false;
   std::string refusal_;

@@ -29,7 +29,7 @@ class CoordinateSmoother : public ReferenceSmoother {
   SmoothingResult Smooth(const WalkProblem& problem, const MethodOptions& options,
                          SmoothingMonitor& monitor) const override {
     const OptimizerOptions optimizer = options.Get(OptimizerGroup()).options;
-    monitor.LimitTo(optimizer.deadline);
+    monitor.LimitTo(optimizer.effort, optimizer.deadline);
     return CoordinateAscent(
         problem, {.parameters = optimizer.program.parameters, .tolerance = optimizer.tolerance},
         monitor);
@@ -45,7 +45,7 @@ class GridSmoother : public ReferenceSmoother {
   SmoothingResult Smooth(const WalkProblem& problem, const MethodOptions& options,
                          SmoothingMonitor& monitor) const override {
     const OptimizerOptions optimizer = options.Get(OptimizerGroup()).options;
-    monitor.LimitTo(optimizer.deadline);
+    monitor.LimitTo(optimizer.effort, optimizer.deadline);
     ReferenceOptions reference{.parameters = optimizer.program.parameters};
     const bool more = reference.parameters.heights || reference.parameters.durations;
     if (more && problem.scene().rests()) {

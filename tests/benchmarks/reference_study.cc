@@ -58,7 +58,7 @@ void Study(const std::string& config, const std::string& method, const std::stri
   std::printf("%-20s %-11s %-4s D %.4f s, %s, %s, %.1f s, %ld instants, %s\n", config.c_str(),
               method.c_str(), variables.c_str(), walk.duration(),
               certified ? "certified" : "NOT CERTIFIED", std::string(Name(result.ending)).c_str(),
-              result.wall, result.instants, result.message.c_str());
+              result.wall, result.work.evaluated(), result.message.c_str());
 }
 
 }  // namespace

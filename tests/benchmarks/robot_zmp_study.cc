@@ -103,7 +103,7 @@ void Cost(const std::string& name) {
     if (test.Check(walk, {0.0, walk.duration()}, &scratch).verdict != Verdict::kFeasible) {
       std::abort();
     }
-    return scratch.instants;
+    return scratch.work.evaluated();
   };
   std::printf("%-14s %-34s %9ld    %9ld\n", name.c_str(), "midpoints of the verdict",
               midpoints(proof_without), midpoints(proof));

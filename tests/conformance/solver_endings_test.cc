@@ -269,6 +269,36 @@ TEST_P(SolverEndings, EvaluationLimitIsKept) {
   EXPECT_THROW((void)solver().Solve(hooked.problem, Constant(2, 0.0), options), std::logic_error);
 }
 
+TEST_P(SolverEndings, CountedAlgebraRepeatsItselfAndEndsASolve) {
+  const ProblemCard card = Hs35();
+  if (!solver().WhyUnsupported(card.problem).empty()) GTEST_SKIP();
+  opt::SolverOptions options;
+  options.max_evaluations = 2000;
+  const auto solve = [&] { return solver().Solve(card.problem, card.problem.initial(), options); };
+  const opt::Solution free = solve();
+  EXPECT_EQ(solve().linear_algebra, free.linear_algebra);
+  // What never asks for a Jacobian counts nothing.
+  EXPECT_EQ(free.linear_algebra > 0, free.jacobian_evaluations > 0);
+
+  long told = 0;
+  int refusals = 0;
+  options.may_go_on = [&](long linear_algebra) {
+    EXPECT_GE(linear_algebra, told);
+    told = linear_algebra;
+    if (told == 0 && free.linear_algebra > 0) return true;
+    ++refusals;
+    return false;
+  };
+  const opt::Solution limited = solve();
+  SCOPED_TRACE(limited.BriefReport());
+  EXPECT_GT(refusals, 0);
+  EXPECT_EQ(limited.ending, Ending::kLimit);
+  EXPECT_THAT(limited.message, HasSubstr("effort"));
+  EXPECT_EQ(limited.linear_algebra, told) << "no work after the refusal";
+  EXPECT_LE(limited.linear_algebra, free.linear_algebra);
+  ExpectTrue(card.problem, options, limited);
+}
+
 TEST_P(SolverEndings, ADeadlineOfZeroIsMetBeforeTheSolver) {
   Hooked hooked([](int) {});
   opt::SolverOptions options;

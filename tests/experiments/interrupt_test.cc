@@ -44,7 +44,7 @@ std::vector<std::string> OptimizingRun(const std::string& name, const std::strin
           "--set",
           "smoothing.optimizer.durations=true",
           "--set",
-          "smoothing.optimizer.deadline_s=600",
+          "smoothing.optimizer.effort=600",
           "--set",
           "output.period_s=0.02",
           "--set",

@@ -47,7 +47,7 @@ class OwnMarginTest : public testing::Test {
 
   SmoothingResult Smoothed(const std::string& method) const {
     SmoothingMonitor monitor;
-    return Methods::Standard().Find(method).Smooth(problem_, OptionsOf(experiment_.config),
+    return Methods::Standard().Find(method).Smooth(problem_, experiment_.config.smoothing.options,
                                                    monitor);
   }
 };

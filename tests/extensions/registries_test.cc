@@ -53,7 +53,7 @@ TEST(OwnMethods, AreNamedByConfigs) {
   SmoothingMonitor monitor;
   const SmoothingResult result =
       methods.Find("mine/plan")
-          .Smooth(ProblemOf(experiment), OptionsOf(experiment.config), monitor);
+          .Smooth(ProblemOf(experiment), experiment.config.smoothing.options, monitor);
   EXPECT_EQ(result.message, "the plan");
   methods.Add(std::make_shared<PlanAsItIs>("second"));
   EXPECT_EQ(methods.Find("mine/plan").meaning(), "second");
@@ -85,12 +85,11 @@ TEST(OwnSolver, IsAMethod) {
   EXPECT_EQ(methods.own_solvers().size(), 1u);
   EXPECT_EQ(std::ranges::count(methods.Names(), "mine/stay"), 1);
   const Experiment experiment = Prepare(WithOptions(
-      {{"smoothing.methods", "[mine/stay]"}, {"smoothing.optimizer.planned_start", "false"}},
-      methods));
+      {{"smoothing.methods", "[mine/stay]"}, {"smoothing.optimizer.start", "dichotomy"}}, methods));
   SmoothingMonitor monitor;
   const SmoothingResult result =
       methods.Find("mine/stay")
-          .Smooth(ProblemOf(experiment), OptionsOf(experiment.config), monitor);
+          .Smooth(ProblemOf(experiment), experiment.config.smoothing.options, monitor);
   EXPECT_TRUE(result.feasible);
   EXPECT_EQ(result.ending, opt::Ending::kNoImprovement);
   for (const std::string& built_in : opt::SolverNames()) {

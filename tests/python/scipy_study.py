@@ -53,7 +53,7 @@ def main():
     experiment = hs.Experiment("bar_8cm")
     for method in ("dichotomy", "halfstep/sqp"):
         options = {} if method == "dichotomy" else {"heights": True, "durations": True,
-                                                    "deadline_s": 2}
+                                                    "effort": 2}
         begin = time.process_time()
         result = experiment.smooth(method, **options)
         print(f"{method:13s} {result.duration:.3f} s, {result.certify().status}, "

@@ -92,6 +92,13 @@ class Smoothing(unittest.TestCase):
         result = hs.Experiment("bar_8cm").smooth("dichotomy", deadline=1e-3)
         self.assertIn(result.status, ("deadline", "no_improvement"))
 
+    def test_the_same_effort_finds_the_same_walk(self):
+        found = [hs.Experiment("fig3_two_half_steps").smooth(
+            "halfstep/sqp", heights=True, durations=True, effort=0.2) for _ in range(2)]
+        self.assertEqual(found[0].duration, found[1].duration)
+        self.assertEqual(found[0].instants, found[1].instants)
+        self.assertIn(found[0].status, ("limit", "converged", "no_improvement"))
+
     def test_what_a_plan_misses(self):
         self.assertEqual(hs.Experiment("fig3_two_half_steps").missed(), [])
         config = hs.load_config("fig3_two_half_steps", half_step__duration_s=0.7)

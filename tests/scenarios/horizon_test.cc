@@ -8,17 +8,15 @@
 #include <memory>
 #include <utility>
 
-#include "opt/adapters/solver_registry.h"
-#include "smoothing/methods/accepted_in_parts.h"
 #include "smoothing/methods/dichotomy.h"
 #include "smoothing/methods/methods.h"
-#include "smoothing/methods/repeated_steps.h"
 #include "smoothing/methods/solver_method_options.h"
 #include "smoothing/methods/walk_window.h"
-#include "smoothing/methods/window_search.h"
 #include "smoothing/proof/certified_feasibility.h"
 #include "smoothing/proof/stoppable_feasibility.h"
 #include "tests/scenarios/load_experiment.h"
+#include "tests/scenarios/straight_walk.h"
+#include "tests/scenarios/stubborn.h"
 #include "tests/smoothing/smoothed.h"
 #include "tests/smoothing/test_walks.h"
 
@@ -118,33 +116,19 @@ TEST_F(WindowTest, WhatTheProblemFixesStaysFixed) {
   }
 }
 
-TEST_F(WindowTest, RepeatedStepsAreThoseOfAStrideBefore) {
-  WalkDraw draw(1703);
-  const HalfStepSequence sequence = draw.Sequence(6);
-  const std::vector<double> planned = PlannedMotion(sequence).durations;
-  const HomotopyParameters at = draw.ExtremeParameters(sequence);
-  const HomotopyParameters like = RepeatSteps(sequence, at, 6, 9);
-  for (const ParameterFamily family : AllParameterFamilies()) {
-    const ParameterFamilyTraits& traits = Traits(family);
-    for (size_t i = 0; i < at.of(family).size(); ++i) {
-      const auto [from, to] = traits.half_steps(static_cast<int>(i));
-      const bool repeats = traits.move == nullptr && from >= 4 && to >= 6 && to <= 9;
-      const size_t before = i - (traits.count(sequence) <= sequence.size() / 2 ? 2 : 4);
-      double expected = at.of(family)[repeats ? before : i];
-      if (repeats && family == ParameterFamily::kDuration) expected *= planned[i] / planned[before];
-      EXPECT_EQ(like.of(family)[i], expected) << traits.name << ' ' << i;
-    }
-  }
+MethodOptions Along(bool durations) {
+  MethodOptions options;
+  options.Edit(HorizonGroup()) = {.window = 4, .step = 2, .passes = 2};
+  OptimizerOptions& optimizer = options.Edit(OptimizerGroup()).options;
+  optimizer.program.parameters = {.heights = durations, .durations = durations};
+  optimizer.tolerance = 0.01;
+  optimizer.effort = 15.0;
+  return options;
 }
 
-HorizonOptions Few(bool durations) {
-  HorizonOptions options;
-  options.program.parameters.heights = options.program.parameters.durations = durations;
-  options.window = 4;
-  options.step = 2;
-  options.passes = 2;
-  options.tolerance = 0.01;
-  return options;
+SmoothingResult Horizon(const WalkProblem& problem, const MethodOptions& options,
+                        SmoothingMonitor& monitor) {
+  return Methods::Standard().Find("halfstep/horizon").Smooth(problem, options, monitor);
 }
 
 TEST(Horizon, EveryIncumbentIsCertifiedAndTheWalkIsShorterThanTheDichotomys) {
@@ -154,7 +138,7 @@ TEST(Horizon, EveryIncumbentIsCertifiedAndTheWalkIsShorterThanTheDichotomys) {
       Smoothed(Dichotomy, ProblemOf(e.sequence, test), {.tolerance = 0.01});
   std::vector<HomotopyParameters> accepted;
   const SmoothingResult result =
-      Smoothed(Horizon, ProblemOf(e.sequence, test), Few(true),
+      Smoothed(Horizon, ProblemOf(e.sequence, test), Along(true),
                {.on_incumbent = [&](const HomotopyParameters& p) { accepted.push_back(p); }});
   EXPECT_TRUE(opt::HasOwnResult(result.ending)) << result.message;
   EXPECT_EQ(result.evidence, Evidence::kCertified);
@@ -172,56 +156,15 @@ TEST(Horizon, EveryIncumbentIsCertifiedAndTheWalkIsShorterThanTheDichotomys) {
   EXPECT_NEAR(result.cost, shortest, 1e-9);
 }
 
-// The same test, but it refuses walks in which one half-step, known by its place, does not last as
-// long as planned.
-class Stubborn : public CertifiedFeasibility {
- public:
-  /// Only of walks of at least so many half-steps.
-  Stubborn(const CertifiedFeasibility& test, const PlacedHalfStep& half_step, int least = 1)
-      : CertifiedFeasibility(test), half_step_(half_step), least_(least) {}
-  Feasibility Check(const SuperposedWalk& walk, const TimeSpan& span,
-                    MarginEvaluator::Scratch* scratch) const override {
-    for (int k = 0; k < walk.num_half_steps() && walk.num_half_steps() >= least_; ++k) {
-      const bool it = walk.X_WS(k).Planar().position() == half_step_.X_WS.Planar().position() &&
-                      walk.half_step(k).kind == half_step_.half_step.kind;
-      const bool asked = walk.end_of(k) > span.begin && walk.start_of(k) < span.end;
-      if (!it || !asked ||
-          walk.parameters().durations[static_cast<size_t>(k)] == half_step_.half_step.duration) {
-        continue;
-      }
-      Margin witness{.family = MarginFamily::kZmp, .value = -1.0};
-      witness.t = std::max(span.begin, walk.start_of(k));
-      witness.at = walk.Locate(witness.t);
-      return {Verdict::kViolated, Evidence::kCertified, witness};
-    }
-    return CertifiedFeasibility::Check(walk, span, scratch);
-  }
-
- private:
-  PlacedHalfStep half_step_;
-  int least_;
-};
-
 TEST(Horizon, OneBadHalfStepCostsItsWindowOnly) {
   const Experiment e = LoadExperiment("bar_8cm");
   const CertifiedFeasibility test({e.robot, e.scene, e.config.smoothing.limits}, {});
   const Stubborn stubborn(test, e.sequence.half_steps[7]);
-  const SmoothingResult result = Smoothed(Horizon, ProblemOf(e.sequence, stubborn), Few(true));
+  const SmoothingResult result = Smoothed(Horizon, ProblemOf(e.sequence, stubborn), Along(true));
   const std::vector<double>& T = result.parameters.durations;
   const std::vector<double> planned = PlannedMotion(e.sequence).durations;
   EXPECT_EQ(T[7], planned[7]);
   for (const size_t k : {0u, 1u, 2u}) EXPECT_LT(T[k], 0.95 * planned[k]) << k;
-}
-
-HalfStepSequence StraightWalk(const Experiment& e, int steps) {
-  std::vector<Footstep> footsteps;
-  for (int i = 1; i <= steps; ++i) {
-    const Side side = i % 2 == 0 ? Side::kLeft : Side::kRight;
-    footsteps.push_back(
-        {.side = side, .X_WF = Foothold::Level({0.1 * i, Sign(side) * 0.105, 0.0})});
-  }
-  const HalfStep& like = e.sequence.half_steps.front().half_step;
-  return MakeSequence(StandingFeet(), footsteps, like.via_lateral, like.shape, e.sequence.model);
 }
 
 // Regression: what a window gained is refused in the whole walk, and the gain of all was lost.
@@ -230,8 +173,8 @@ TEST(Horizon, WhatIsRefusedInTheWholeCostsNothingElsewhere) {
   const CertifiedFeasibility test({e.robot, Scene{}, e.config.smoothing.limits}, {});
   const HalfStepSequence sequence = StraightWalk(e, 8);
   const Stubborn stubborn(test, sequence.half_steps[3], sequence.size());
-  HorizonOptions options = Few(true);
-  options.passes = 1;
+  MethodOptions options = Along(true);
+  options.Edit(HorizonGroup()).passes = 1;
   const SmoothingResult result = Smoothed(Horizon, ProblemOf(sequence, stubborn), options);
   const std::vector<double>& T = result.parameters.durations;
   const std::vector<double> planned = PlannedMotion(sequence).durations;
@@ -239,41 +182,15 @@ TEST(Horizon, WhatIsRefusedInTheWholeCostsNothingElsewhere) {
   for (const size_t k : {0u, 8u, 10u, 12u, 15u}) EXPECT_LT(T[k], 0.95 * planned[k]) << k;
 }
 
-// Regression: where half-steps were planned slow, windows ended while each round still gained.
-TEST(WindowSearch, GoesOnWhereRoundsStillGain) {
-  const Experiment e = LoadExperiment("fig3_two_half_steps");
-  const CertifiedFeasibility test({e.robot, Scene{}, e.config.smoothing.limits}, {});
-  const HalfStepSequence sequence = StraightWalk(e, 4);
-  HomotopyParameters slow = PlannedMotion(sequence);
-  for (double& T : slow.durations) T *= 1.5;
-  const WalkWindow window = WindowOf(ProblemOf(sequence, test), slow, 0, 3);
-  const auto gain_with = [&](int most_rounds) {
-    SmoothingMonitor monitor;
-    monitor.BeginAccepted(window.problem, AcceptedInParts::Walk(window.parameters));
-    WindowSearchOptions options{.program = {}, .rounds = 1, .most_rounds = most_rounds};
-    options.program.parameters = EveryFamily();
-    double gained = 0.0;
-    SearchEnding ending;
-    SearchWindow(
-        window, options, *opt::MakeSolver("halfstep/sqp"), 30.0, monitor,
-        [&gained](const HomotopyParameters&, double gain) { gained = gain; }, &ending);
-    return std::pair(gained, monitor.result().iterates.size());
-  };
-  const auto [few, few_rounds] = gain_with(0);
-  const auto [many, many_rounds] = gain_with(8);
-  EXPECT_EQ(few_rounds, 1u);
-  EXPECT_GT(many_rounds, 1u);
-  EXPECT_LE(many_rounds, 8u);
-  EXPECT_GT(many, few + 0.1) << many_rounds << " rounds";
-}
-
 TEST(Horizon, ProvesStopBranchesWhereTheyAreDemanded) {
   const Experiment e = LoadExperiment("bar_8cm");
   const auto inner = std::make_shared<CertifiedFeasibility>(
       MarginEvaluator(e.robot, e.scene, e.config.smoothing.limits), CertificationOptions{});
   const StoppableFeasibility test(inner, StopBranches::kAll);
-  const SmoothingResult result = Smoothed(Horizon, ProblemOf(e.sequence, test), Few(true));
-  EXPECT_LT(DurationOf(result.parameters), 6.5);
+  const WalkProblem problem = ProblemOf(e.sequence, test);
+  const SmoothingResult result = Smoothed(Horizon, problem, Along(true));
+  const SmoothingResult dichotomy = Smoothed(Dichotomy, problem, {.tolerance = 0.01});
+  EXPECT_LT(DurationOf(result.parameters), 0.95 * DurationOf(dichotomy.parameters));
   const SuperposedWalk walk(e.sequence, result.parameters);
   MarginEvaluator::Scratch scratch = test.evaluator().MakeScratch();
   EXPECT_EQ(test.Check(walk, {0.0, walk.duration()}, &scratch).verdict, Verdict::kFeasible);
@@ -282,17 +199,17 @@ TEST(Horizon, ProvesStopBranchesWhereTheyAreDemanded) {
 TEST(Horizon, ItsCostIsLinearInTheWalk) {
   const Experiment e = LoadExperiment("bar_8cm");
   const CertifiedFeasibility test({e.robot, Scene{}, e.config.smoothing.limits}, {});
-  std::vector<double> instants;
+  std::vector<double> efforts;
   for (const int steps : {8, 16}) {
     const HalfStepSequence sequence = StraightWalk(e, steps);
-    HorizonOptions options = Few(false);
-    options.passes = 1;
+    MethodOptions options = Along(false);
+    options.Edit(HorizonGroup()).passes = 1;
     const SmoothingResult result = Smoothed(Horizon, ProblemOf(sequence, test), options);
     EXPECT_TRUE(result.feasible) << result.message;
-    instants.push_back(static_cast<double>(result.instants));
+    efforts.push_back(result.work.effort());
   }
-  EXPECT_GT(instants[1], 1.6 * instants[0]);
-  EXPECT_LT(instants[1], 2.4 * instants[0]);
+  EXPECT_GT(efforts[1], 1.6 * efforts[0]);
+  EXPECT_LT(efforts[1], 2.4 * efforts[0]);
 }
 
 TEST(Horizon, RefusesAProgramThatBelongsToTheWholeWalk) {
@@ -319,11 +236,12 @@ TEST(Horizon, RefusesAProgramThatBelongsToTheWholeWalk) {
 TEST(Horizon, LowersTheRoughnessToo) {
   const Experiment e = LoadExperiment("fig3_two_half_steps");
   const CertifiedFeasibility test({e.robot, e.scene, e.config.smoothing.limits}, {});
-  HorizonOptions options = Few(true);
-  options.program.kind = ProgramKind::kSmooth;
+  MethodOptions options = Along(true);
+  ProgramOptions& smooth = options.Edit(OptimizerGroup()).options.program;
+  smooth.kind = ProgramKind::kSmooth;
   const SmoothingResult result = Smoothed(Horizon, ProblemOf(e.sequence, test), options);
   EXPECT_TRUE(opt::HasOwnResult(result.ending)) << result.message;
-  const OverlapProgram program(e.sequence, test.evaluator(), options.program, 0.0);
+  const OverlapProgram program(e.sequence, test.evaluator(), smooth, 0.0);
   EXPECT_NEAR(result.cost, program.Cost(result.parameters), 1e-9);
   EXPECT_LT(result.cost, 0.8 * program.Cost(PlannedMotion(e.sequence)));
 }

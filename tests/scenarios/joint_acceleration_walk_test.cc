@@ -41,7 +41,7 @@ OptimizerOptions JointProgram() {
   OptimizerOptions options;
   options.solver = "halfstep/sqp";
   options.program.parameters.heights = options.program.parameters.durations = true;
-  options.deadline = 60;  // ends by its rounds
+  options.effort = 10.0;
   options.rounds = 8;
   return options;
 }

@@ -37,10 +37,10 @@ class EveryMethod : public testing::TestWithParam<std::string> {};
 TEST_P(EveryMethod, ReturnsACertifiedWalkAcrossABarThatMoves) {
   const Experiment e = LoadExperiment("crossing");
   const CertifiedFeasibility test(MarginEvaluator(e.robot, e.scene, e.config.smoothing.limits), {});
-  SmoothingMonitor monitor({.deadline = 2.0});
+  SmoothingMonitor monitor({.effort = 2.0});
   MethodOptions options;
   OptimizerOptions& optimizer = options.Edit(OptimizerGroup()).options;
-  optimizer.deadline = 2.0;
+  optimizer.effort = 2.0;
   optimizer.program.parameters = {.heights = true, .durations = true};
   const SmoothingResult result =
       Methods::Standard().Find(GetParam()).Smooth(ProblemOf(e.sequence, test), options, monitor);

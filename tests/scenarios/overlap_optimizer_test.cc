@@ -31,7 +31,7 @@ OptimizerOptions Quick(const std::string& solver) {
   options.program.watch.instants = 8;
   options.rounds = 2;
   options.max_iterations = 15;
-  options.deadline = 20;
+  options.effort = 4.0;
   options.tolerance = 0.01;
   return options;
 }
@@ -63,7 +63,7 @@ TEST_F(OptimizerTest, IsNeverWorseThanTheDichotomyAndAllItAcceptsIsCertifiedOnIt
     const auto keep = [&accepted](const HomotopyParameters& p) { accepted.push_back(p); };
     const SmoothingResult result =
         Smoothed(OptimizeOverlaps, ProblemOf(e_.sequence, test_), options, {.on_incumbent = keep});
-    EXPECT_EQ(result.ending, opt::Ending::kLimit) << result.message;  // of rounds
+    EXPECT_EQ(result.ending, opt::Ending::kLimit) << result.message;  // of rounds or effort
     EXPECT_LT(DurationOf(result.parameters), DurationOf(dichotomy.parameters) - 0.3) << solver;
     accepted.push_back(result.parameters);
     walks += accepted.size();
@@ -81,19 +81,44 @@ TEST_F(OptimizerTest, IsNeverWorseThanTheDichotomyAndAllItAcceptsIsCertifiedOnIt
   EXPECT_GT(walks, 5u);
 }
 
-// The dichotomy before the search is coarse, and where a search finds nothing that would show.
-TEST_F(OptimizerTest, WithoutASearchItEndsWhereAFineDichotomyEnds) {
+// The effort is just that of the dichotomy, so that none is left to call the solver with.
+TEST_F(OptimizerTest, WithoutASearchItEndsWhereItBegan) {
   if (ASolver().empty()) GTEST_SKIP() << "no solver";
-  OptimizerOptions options = Quick(ASolver());
-  options.deadline = 0.0;
-  options.tolerance = 0.001;
   const SmoothingResult dichotomy =
       Smoothed(Dichotomy, ProblemOf(e_.sequence, test_), {.tolerance = 0.001});
-  const SmoothingResult result = Smoothed(OptimizeOverlaps, ProblemOf(e_.sequence, test_), options);
-  EXPECT_LE(DurationOf(result.parameters), DurationOf(dichotomy.parameters));
-  EXPECT_EQ(result.ending, opt::Ending::kNotRun);
-  EXPECT_EQ(result.message, "the deadline of 0 s passed before " + ASolver() +
-                                " was called; the walk is a dichotomy's");
+  OptimizerOptions options = Quick(ASolver());
+  options.tolerance = 0.001;
+  for (const bool by_dichotomy : {false, true}) {
+    options.start = by_dichotomy ? SearchStart::kDichotomy : SearchStart::kTypical;
+    options.effort = by_dichotomy ? dichotomy.work.effort() : 1e-6;
+    const SmoothingResult result =
+        Smoothed(OptimizeOverlaps, ProblemOf(e_.sequence, test_), options);
+    EXPECT_EQ(result.ending, opt::Ending::kNotRun);
+    EXPECT_THAT(result.message, testing::StartsWith("the effort of "));
+    EXPECT_THAT(result.message,
+                testing::EndsWith(" was used before " + ASolver() + " was called; the walk is " +
+                                  (by_dichotomy ? "a dichotomy's" : "the planned motion")));
+    EXPECT_TRUE(result.feasible);
+    if (by_dichotomy) {
+      EXPECT_LE(DurationOf(result.parameters), DurationOf(dichotomy.parameters));
+    } else {
+      EXPECT_EQ(result.parameters, PlannedMotion(e_.sequence));
+    }
+  }
+}
+
+TEST_F(OptimizerTest, WhereRoundsBeginIsTheCallersChoice) {
+  const double planned = DurationOf(PlannedMotion(e_.sequence));
+  for (const SearchStart start :
+       {SearchStart::kTypical, SearchStart::kDichotomy, SearchStart::kPlanned}) {
+    OptimizerOptions options = Quick("halfstep/sqp");
+    options.rounds = 5;
+    options.start = start;
+    const SmoothingResult result =
+        Smoothed(OptimizeOverlaps, ProblemOf(e_.sequence, test_), options);
+    EXPECT_TRUE(HasOwnResult(result.ending)) << Name(start) << ": " << result.message;
+    EXPECT_LT(DurationOf(result.parameters), 0.75 * planned) << Name(start);
+  }
 }
 
 TEST_F(OptimizerTest, ASolverThatRefusesTheProgramIsNotCreditedWithTheDichotomysWalk) {
@@ -107,10 +132,15 @@ TEST_F(OptimizerTest, ASolverThatRefusesTheProgramIsNotCreditedWithTheDichotomys
     const SmoothingResult result =
         Smoothed(OptimizeOverlaps, ProblemOf(e_.sequence, test_), options);
     EXPECT_EQ(result.ending, opt::Ending::kInvalidInput) << result.message;
-    EXPECT_THAT(result.message, testing::HasSubstr("nlopt/bobyqa refused the program; nothing of "
-                                                   "its own was better and proved"));
+    // A dichotomy knows durations alone, so `smooth` has none.
+    const bool planned = kind == ProgramKind::kSmooth;
+    EXPECT_THAT(result.message,
+                testing::HasSubstr(std::string("nlopt/bobyqa refused the program; nothing of its "
+                                               "own was better and proved, the walk is ") +
+                                   (planned ? "the planned motion" : "a dichotomy's")));
     EXPECT_TRUE(result.feasible);
-    EXPECT_NEAR(DurationOf(result.parameters), DurationOf(dichotomy.parameters), 0.01);
+    EXPECT_NEAR(DurationOf(result.parameters),
+                DurationOf(planned ? PlannedMotion(e_.sequence) : dichotomy.parameters), 0.01);
   }
   SmoothingMonitor monitor;
   EXPECT_EQ(
@@ -119,7 +149,7 @@ TEST_F(OptimizerTest, ASolverThatRefusesTheProgramIsNotCreditedWithTheDichotomys
       opt::Ending::kInvalidInput);
 }
 
-// A walk of tests/fixtures/walk, smoothed without a deadline that matters.
+// A walk of tests/fixtures/walk, smoothed.
 struct SmoothedFixture {
   Experiment e;
   CertifiedFeasibility test{{e.robot, e.scene, e.config.smoothing.limits}, {}};
@@ -129,7 +159,7 @@ struct SmoothedFixture {
       : e(Prepare(LoadConfig(HALFSTEP_SOURCE_DIR "/tests/fixtures/walk/" + name + ".yaml", {}))) {
     OptimizerOptions options = e.config.smoothing.options.Get(OptimizerGroup()).options;
     options.solver = "halfstep/sqp";
-    options.deadline = 100.0;
+    options.effort = 20.0;
     result = Smoothed(OptimizeOverlaps, ProblemOf(e.sequence, test), options);
   }
 };
@@ -139,7 +169,7 @@ struct SmoothedFixture {
 TEST(SlowArc, RowsWhoseMultipliersAreLargeAreKeptAllTheSame) {
   const SmoothedFixture fixture("slow_arc");
   const SmoothingResult& result = fixture.result;
-  EXPECT_EQ(result.ending, opt::Ending::kLimit) << result.message;  // of rounds
+  EXPECT_EQ(result.ending, opt::Ending::kLimit) << result.message;  // of rounds or effort
   EXPECT_LT(DurationOf(result.parameters), 8.5) << result.message;
 }
 
@@ -171,20 +201,20 @@ TEST_F(OptimizerTest, WithoutAProofOfAnythingNewItDidNotImprove) {
 TEST_F(OptimizerTest, StoppedAtAnyMomentItKeepsACertifiedWalk) {
   if (ASolver().empty()) GTEST_SKIP() << "no solver";
   MarginEvaluator::Scratch scratch = evaluator_.MakeScratch();
-  for (double moment : {0.0, 0.1, 0.3}) {
+  for (const int moment : {0, 1, 3}) {  // how often it has told its progress
     std::stop_source source;
-    const auto stop = [&](double done) {
-      if (done >= moment) source.request_stop();
+    int told = 0;
+    const auto stop = [&](double) {
+      if (++told == moment) source.request_stop();
     };
+    if (moment == 0) source.request_stop();
     const SmoothingResult result =
         Smoothed(OptimizeOverlaps, ProblemOf(e_.sequence, test_), Quick(ASolver()),
                  {.progress = stop, .stop = source.get_token()});
-    if (moment < 0.2) {  // within the dichotomy
-      EXPECT_EQ(result.ending, opt::Ending::kNotRun) << result.message;
-    } else {
-      EXPECT_EQ(result.ending, opt::Ending::kInterrupted) << result.message;
-    }
-    EXPECT_THAT(result.message, testing::HasSubstr("stopped from outside"));
+    EXPECT_EQ(result.ending == opt::Ending::kNotRun, moment == 0) << result.message;
+    EXPECT_THAT(result.ending, testing::AnyOf(opt::Ending::kNotRun, opt::Ending::kInterrupted,
+                                              opt::Ending::kNoImprovement));
+    EXPECT_THAT(result.message, testing::StartsWith("stopped from outside"));
     const SuperposedWalk walk(e_.sequence, result.parameters);
     EXPECT_EQ(test_.Check(walk, {0.0, walk.duration()}, &scratch).verdict, Verdict::kFeasible);
     EXPECT_LE(walk.duration(), DurationOf(PlannedMotion(e_.sequence)));
@@ -247,6 +277,7 @@ TEST_F(OptimizerTest, EveryPointOfAParetoCurveHoldsAtItsLevelAndSafetyGrowsWithT
 
 TEST_F(OptimizerTest, AParetoCurveHasNoPointThatAShorterWalkIsAsSafeAs) {
   OptimizerOptions options = Quick("halfstep/sqp");
+  options.effort = 8.0;
   SmoothingMonitor monitor;
   const SmoothingResult result =
       ParetoCurve(ProblemOf(e_.sequence, test_), options, {.points = 6}, monitor);
@@ -258,19 +289,22 @@ TEST_F(OptimizerTest, AParetoCurveHasNoPointThatAShorterWalkIsAsSafeAs) {
 }
 
 // All solves together: each having its own, every one of 42 looked at its start at least.
-TEST_F(OptimizerTest, AParetoCurveHasOneDeadline) {
+TEST_F(OptimizerTest, AParetoCurveHasOneEffort) {
   OptimizerOptions options = Quick("halfstep/sqp");
-  options.deadline = 1e-4;  // over before the first solve
+  options.effort = 1e-6;  // used before the first solve
   SmoothingMonitor monitor;
-  const SmoothingResult result =
+  const SmoothingResult none =
       ParetoCurve(ProblemOf(e_.sequence, test_), options, {.points = 40}, monitor);
-  EXPECT_FALSE(HasOwnResult(result.ending)) << result.message;
+  EXPECT_FALSE(HasOwnResult(none.ending)) << none.message;
+  EXPECT_TRUE(none.feasible);
+  EXPECT_THAT(none.message, testing::StartsWith("the effort of 1e-06 was used"));
+  EXPECT_TRUE(none.pareto.empty());
+  options.effort = 1.0;
+  SmoothingMonitor other;
+  const SmoothingResult result =
+      ParetoCurve(ProblemOf(e_.sequence, test_), options, {.points = 40}, other);
   EXPECT_TRUE(result.feasible);
-  EXPECT_THAT(result.message, testing::HasSubstr("the deadline passed"));
-  EXPECT_LE(result.pareto.size(), 1u);
-  const SmoothingResult dichotomy =
-      Smoothed(Dichotomy, ProblemOf(e_.sequence, test_), {.tolerance = options.tolerance});
-  EXPECT_LE(result.iterates.size(), dichotomy.iterates.size() + 4);
+  EXPECT_LT(result.work.effort(), 1.5);
 }
 
 class ProgramDerivatives : public testing::TestWithParam<std::string> {};
@@ -403,8 +437,7 @@ TEST(OptimizerScenario, SupportPointsShortenAWalkOverABar) {
     options.solver = "halfstep/sqp";
     options.program.parameters = {.heights = true, .durations = true, .support_points = points};
     options.rounds = 6;
-    options.planned_start = false;
-    options.deadline = 60.0;
+    options.effort = 10.0;
     options.tolerance = 0.02;
     const WalkProblem problem = ProblemOf(e.sequence, test);
     const SmoothingResult result = Smoothed(OptimizeOverlaps, problem, options);

@@ -136,13 +136,14 @@ TEST_F(ReferenceMethods, StoppedTheyKeepWhatWasFeasible) {
   EXPECT_TRUE(grid.feasible);
 }
 
-// From the question on at which a stop is asked for, or the deadline has passed, no method asks
+// From the question on at which a stop is asked for, or the effort is used, no method asks
 // many more: it finishes what it is at.
 TEST_F(ReferenceMethods, StoppedInTheMiddleTheyAskLittleMore) {
   Methods methods = Methods::Standard();
   AddReferenceSmoothers(&methods);
   MethodOptions options;
   options.Edit(OptimizerGroup()).options.program.parameters = {.heights = true, .durations = true};
+  options.Edit(OptimizerGroup()).options.effort = 30.0;
   for (const char* name : {"coordinate", "dichotomy/uniform", "reference"}) {
     for (const size_t when : {20u, 100u}) {
       std::stop_source source;
@@ -161,14 +162,14 @@ TEST_F(ReferenceMethods, StoppedInTheMiddleTheyAskLittleMore) {
       EXPECT_NE(result.ending, opt::Ending::kConverged) << name;
       EXPECT_TRUE(result.feasible);
     }
-    options.Edit(OptimizerGroup()).options.deadline = 1e-6;
-    FakeFeasibility late = LowFeetMayHurry(0.8);
+    options.Edit(OptimizerGroup()).options.effort = 1e-6;
+    FakeFeasibility spent = LowFeetMayHurry(0.8);
     SmoothingMonitor monitor;
     const SmoothingResult result =
-        methods.Find(name).Smooth(ProblemOf(sequence_, late), options, monitor);
-    EXPECT_LE(late.questions.size(), 60u) << name;
+        methods.Find(name).Smooth(ProblemOf(sequence_, spent), options, monitor);
+    EXPECT_LE(spent.questions.size(), 60u) << name;
     EXPECT_NE(result.ending, opt::Ending::kConverged) << name << ": " << result.message;
-    options.Edit(OptimizerGroup()).options.deadline = 30.0;
+    options.Edit(OptimizerGroup()).options.effort = 30.0;
   }
 }
 

@@ -24,7 +24,7 @@ class SampledFeasibilityTest : public testing::Test {
     const MarginEvaluator evaluator(experiment_.robot, experiment_.scene, limits);
     MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
     const auto answer = SampledFeasibility(evaluator, period).Check(walk_, span, &scratch);
-    *instants = scratch.instants;
+    *instants = scratch.work.evaluated();
     return answer;
   }
 
@@ -95,7 +95,7 @@ TEST_F(SampledFeasibilityTest, AViolationOutsideTheWindowDoesNotCount) {
 TEST_F(SampledFeasibilityTest, SampleMarginsAreTheLeastOverTheGridWithTheirPlaces) {
   MarginEvaluator::Scratch scratch = evaluator_.MakeScratch();
   const MarginSet coarse = SampleMargins(evaluator_, walk_, 0.02, &scratch);
-  EXPECT_EQ(scratch.instants, std::lround(std::ceil(walk_.duration() / 0.02)) + 1);
+  EXPECT_EQ(scratch.work.instants, std::lround(std::ceil(walk_.duration() / 0.02)) + 1);
   const MarginSet fine = SampleMargins(evaluator_, walk_, 0.01, &scratch);
   for (size_t f = 0; f < coarse.size(); ++f) {
     EXPECT_EQ(coarse[f].family, MarginFamily{static_cast<int>(f)});

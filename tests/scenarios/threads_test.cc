@@ -1,10 +1,8 @@
-// Several threads find what one finds: walks, candidates, counts and certificates, to the bit.
+// Several threads find what one finds: walks, candidates, work and certificates, to the bit.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <bit>
-#include <cstdint>
 #include <memory>
 #include <string>
 #include <tuple>
@@ -15,18 +13,13 @@
 #include "smoothing/methods/solver_method_options.h"
 #include "smoothing/proof/certified_feasibility.h"
 #include "tests/scenarios/load_experiment.h"
+#include "tests/scenarios/same_results.h"
 #include "tests/smoothing/smoothed.h"
 
 namespace halfstep {
 namespace {
 
 using testing::TestWithParam;
-
-// The value by its bits: undecided margins are not a number.
-auto Content(const Margin& m) {
-  return std::tuple(m.family, std::bit_cast<std::uint64_t>(m.value), m.subject, m.other, m.t,
-                    m.at.half_step, m.at.tau);
-}
 
 void ExpectSame(const Certificate& a, const Certificate& b) {
   ASSERT_EQ(a.size(), b.size());
@@ -37,33 +30,6 @@ void ExpectSame(const Certificate& a, const Certificate& b) {
   }
 }
 
-// All but times by the clock.
-void ExpectSame(const SmoothingResult& a, const SmoothingResult& b) {
-  EXPECT_EQ(a.parameters, b.parameters);
-  EXPECT_EQ(a.cost, b.cost);
-  EXPECT_EQ(a.ending, b.ending);
-  EXPECT_EQ(a.message, b.message);
-  EXPECT_EQ(a.instants, b.instants);
-  EXPECT_EQ(a.collision_queries, b.collision_queries);
-  EXPECT_EQ(a.raw_infeasible, b.raw_infeasible);
-  ASSERT_EQ(a.iterates.size(), b.iterates.size());
-  for (size_t i = 0; i < a.iterates.size(); ++i) {
-    const auto content = [](const SmoothingIterate& it) {
-      return std::tuple(it.instants, it.candidate_duration, it.candidate_worst_margin, it.accepted,
-                        it.lambda, it.incumbent_duration, it.incumbent_slack);
-    };
-    EXPECT_EQ(content(a.iterates[i]), content(b.iterates[i])) << i;
-  }
-  ASSERT_EQ(a.junctions.size(), b.junctions.size());
-  for (size_t i = 0; i < a.junctions.size(); ++i) {
-    ASSERT_EQ(a.junctions[i].limited_by.has_value(), b.junctions[i].limited_by.has_value());
-    if (a.junctions[i].limited_by) {
-      EXPECT_EQ(Content(*a.junctions[i].limited_by), Content(*b.junctions[i].limited_by));
-    }
-    EXPECT_EQ(a.junctions[i].multiplier, b.junctions[i].multiplier);
-  }
-}
-
 MethodOptions Few() {
   MethodOptions options;
   OptimizerOptions& optimizer = options.Edit(OptimizerGroup()).options;
@@ -71,7 +37,7 @@ MethodOptions Few() {
   optimizer.program.parameters = {.heights = true, .durations = true};
   optimizer.rounds = 2;
   optimizer.instants = 12;
-  optimizer.deadline = 1e4;
+  optimizer.effort = 1.5;  // ends some of them in the middle of a round
   options.Edit(HorizonGroup()).passes = 1;
   return options;
 }
@@ -91,7 +57,7 @@ TEST_P(ThreadsTest, FindWhatOneFinds) {
   const CertifiedFeasibility test({e.robot, e.scene, e.config.smoothing.limits}, {});
   SmoothingResult alone;
   Certificate alone_rows;
-  for (const int threads : {0, 2, 3}) {
+  for (const int threads : {0, 1, 2, 3}) {
     SCOPED_TRACE(threads);
     const auto workers = threads > 0 ? std::make_shared<Workers>(threads) : nullptr;
     SmoothingMonitor monitor({.workers = workers});
@@ -104,6 +70,7 @@ TEST_P(ThreadsTest, FindWhatOneFinds) {
     EXPECT_EQ(test.Certify(walk, &scratch, &rows).verdict, Verdict::kFeasible);
     if (threads == 0) {
       EXPECT_LT(result.cost, 0.8 * DurationOf(PlannedMotion(e.sequence)));
+      EXPECT_GT(result.work.effort(), 0.0);
       alone = std::move(result);
       alone_rows = std::move(rows);
       continue;
@@ -114,8 +81,8 @@ TEST_P(ThreadsTest, FindWhatOneFinds) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, ThreadsTest,
-                         testing::Values("dichotomy", "halfstep/sqp", "halfstep/horizon",
-                                         "halfstep/barrier"),
+                         testing::Values("dichotomy", "dichotomy/uniform", "halfstep/sqp",
+                                         "halfstep/horizon", "halfstep/barrier"),
                          [](const auto& info) {
                            const std::string name = info.param;
                            return name.substr(name.find('/') + 1);
@@ -139,7 +106,7 @@ TEST(Threads, RefuseWhatOneRefuses) {
       const Feasibility a = test.Check(walk, all, &alone), b = test.Check(walk, all, &shared);
       ASSERT_EQ(a.verdict, b.verdict);
       EXPECT_EQ(Content(a.witness), Content(b.witness));
-      EXPECT_EQ(alone.instants, shared.instants);
+      EXPECT_EQ(alone.work, shared.work);
       EXPECT_EQ(alone.bodies.queries, shared.bodies.queries);
       refused += a.verdict == Verdict::kViolated;
     }

@@ -204,7 +204,7 @@ TEST_F(WatchedInstantsTest, BranchesLowerRowsAndTheLeastSlack) {
     const double known = plain.LeastSlack(parameters, all);
     const double expected = std::min(least, known);
     EXPECT_NEAR(stoppable.LeastSlack(parameters, all), expected, 0.03 * (1 + std::abs(expected)));
-    const double focused = stoppable.Focus(walk, 0.002, 0.0);
+    const double focused = std::ranges::min(stoppable.Focus(walk, 0.002, 0.0));
     EXPECT_NEAR(stoppable.LeastSlack(parameters, all), focused, 0.01 * (1 + std::abs(focused)));
   }
   EXPECT_GT(lower, 0);
@@ -225,7 +225,9 @@ TEST_F(WatchedInstantsTest, FocusSeesTheLeastSlackWithFewerRows) {
   HomotopyParameters parameters = PlannedMotion(e_.sequence);
   for (double& duration : parameters.durations) duration *= 0.8;
   const SuperposedWalk walk(e_.sequence, parameters);
-  const double least = table.Focus(walk, 0.002, 0.0);
+  const std::vector<double> leasts = table.Focus(walk, 0.002, 0.0);
+  EXPECT_EQ(std::ssize(leasts), walk.num_half_steps());
+  const double least = std::ranges::min(leasts);
   EXPECT_LT(table.rows(), rows);
   std::array<bool, kNumMarginFamilies> all;
   all.fill(true);
@@ -236,6 +238,56 @@ TEST_F(WatchedInstantsTest, FocusSeesTheLeastSlackWithFewerRows) {
   const int focused = table.rows();
   table.Focus(walk, 0.002, 0.0);
   EXPECT_EQ(table.rows(), focused);  // nothing piles up
+}
+
+// So that a search can hold back the half-steps at fault, and no others.
+TEST_F(WatchedInstantsTest, FocusTellsTheLeastSlackOfEachHalfStep) {
+  WatchedInstants table(variables_, evaluator_, {.instants = 8, .row_per_instant = true});
+  HomotopyParameters parameters = PlannedMotion(e_.sequence);
+  const std::vector<double> before =
+      table.Focus(SuperposedWalk(e_.sequence, parameters), 0.002, 0.0);
+  EXPECT_GE(std::ranges::min(before), 0.0) << "the plan keeps all";
+  EXPECT_LE(std::ranges::max(before), 1.0 + 1e-12);
+  parameters.durations[3] *= 0.3;
+  const std::vector<double> after =
+      table.Focus(SuperposedWalk(e_.sequence, parameters), 0.002, 0.0);
+  for (size_t k = 0; k < before.size(); ++k) {
+    if (k == 3) {
+      EXPECT_LT(after[k], 0.0);
+    } else {
+      EXPECT_NEAR(after[k], before[k], 0.05) << k;  // other samples of the same stretch
+    }
+  }
+}
+
+// Values and derivatives are counted apart, whatever their order and the threads.
+TEST_F(WatchedInstantsTest, WhatIsLookedAtIsCounted) {
+  WatchedInstants table(variables_, evaluator_, {.instants = 8});
+  const HomotopyParameters parameters = PlannedMotion(e_.sequence);
+  const Eigen::VectorXd x = variables_.ToVariables(parameters);
+  Eigen::VectorXd values;
+  std::vector<double> nonzeros;
+  table.Evaluate(x, &values, nullptr);  // not counted anywhere
+  Work alone;
+  table.SetWork(&alone);
+  table.Evaluate(x, &values, nullptr);
+  EXPECT_GE(alone.instants, 8 * e_.sequence.size());
+  EXPECT_EQ(alone, (Work{.instants = alone.instants}));
+  const long instants = alone.instants;
+  table.Evaluate(x, &values, &nonzeros);
+  EXPECT_EQ(alone, (Work{.instants = instants, .derivatives = instants}));
+  table.Focus(SuperposedWalk(e_.sequence, parameters), 0.01, 0.0);
+  EXPECT_GT(alone.instants, instants + std::lround(DurationOf(parameters) / 0.01));
+
+  Workers workers(3);
+  WatchedInstants again(variables_, evaluator_, {.instants = 8});
+  Work shared;
+  again.SetWorkers(&workers);
+  again.SetWork(&shared);
+  again.Evaluate(x, &values, nullptr);
+  again.Evaluate(x, &values, &nonzeros);
+  again.Focus(SuperposedWalk(e_.sequence, parameters), 0.01, 0.0);
+  EXPECT_EQ(alone, shared);
 }
 
 // The rows of what was refused ask for more from then on, and no others.

@@ -13,6 +13,7 @@
 #include <optional>
 #include <vector>
 
+#include "smoothing/proof/certified_feasibility.h"
 #include "smoothing/proof/interval_statements.h"
 #include "tests/smoothing/certificate_draws.h"
 #include "tests/smoothing/robot_truth.h"

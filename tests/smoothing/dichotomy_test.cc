@@ -257,7 +257,7 @@ TEST_F(DichotomyTest, IteratesTellTheStoryAndTheIncumbentNeverGetsSlower) {
   EXPECT_GT(accepted, 5);
   EXPECT_NEAR(SuperposedWalk(sequence_, result.parameters).duration(), incumbent, 1e-12);
   EXPECT_TRUE(result.time_to_first_improvement);
-  EXPECT_EQ(result.instants, instants);
+  EXPECT_EQ(result.work.evaluated(), instants);
 }
 
 TEST_F(DichotomyTest, AJunctionIsLimitedByWhatRefusedTheSmallestInfeasibleOverlap) {

@@ -31,7 +31,7 @@ class FakeFeasibility : public FeasibilityTest {
   }
   Feasibility Check(const SuperposedWalk& walk, const TimeSpan& span,
                     MarginEvaluator::Scratch* scratch) const override {
-    ++scratch->instants;
+    ++scratch->work.instants;
     const Verdict verdict = rule_(walk.parameters());
     questions.push_back({walk.parameters(), span, verdict});
     Margin witness{.family = MarginFamily::kZmp, .value = -0.02};

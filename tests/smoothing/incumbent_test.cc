@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <vector>
 
 #include "smoothing/program/overlap_program.h"
 #include "tests/smoothing/fake_feasibility.h"
@@ -61,7 +62,7 @@ TEST_F(IncumbentTest, AProvedCandidateBecomesTheIncumbentAtOnce) {
   EXPECT_EQ(path.parameters(), candidate);
 }
 
-TEST_F(IncumbentTest, ARefusedCandidateIsApproachedWhereItWasRefused) {
+TEST_F(IncumbentTest, StepsAroundARefusalStayAndTheRestIsTriedAgain) {
   const HalfStepSequence sequence = WalkDraw(80).Sequence(4);  // 7 junctions
   const HomotopyParameters planned = PlannedMotion(sequence);
   const HomotopyParameters candidate = Overlapped(sequence, 0.9);
@@ -71,10 +72,10 @@ TEST_F(IncumbentTest, ARefusedCandidateIsApproachedWhereItWasRefused) {
       sequence,
       {.cost = [](const HomotopyParameters& p) { return DurationOf(p); }, .prove = Prove(test)},
       planned, DurationOf(planned), &scratch_);
-  EXPECT_EQ(path.Toward(candidate, 2), 0.0);  // a half is still too much
-  EXPECT_EQ(path.refused(), 2);
+  EXPECT_EQ(path.Toward(candidate, 1), 0.0);
+  EXPECT_EQ(path.refused(), 1);
   EXPECT_EQ(path.parameters(), planned);
-  const double lambda = path.Toward(candidate, 3);
+  const double lambda = path.Toward(candidate, 2);
   EXPECT_NEAR(lambda, 6.0 / 8, 1e-12);  // half-steps 0 and 1 stay where they are
   EXPECT_EQ(path.refusals().size(), 1u);
   for (size_t i = 0; i < 7; ++i) {
@@ -83,8 +84,43 @@ TEST_F(IncumbentTest, ARefusedCandidateIsApproachedWhereItWasRefused) {
   EXPECT_EQ(path.cost(), DurationOf(path.parameters()));
 }
 
-// Where every half-step is held back, all go a part of the way.
-TEST_F(IncumbentTest, ACandidateThatIsRefusedEverywhereIsApproachedAsAWhole) {
+// Half-steps of a step share numbers, so none of them moves without the other.
+TEST_F(IncumbentTest, StepsThatAreHeldStayFromTheFirstPointOn) {
+  const HalfStepSequence sequence = WalkDraw(80).Sequence(4);
+  const HomotopyParameters planned = PlannedMotion(sequence);
+  HomotopyParameters candidate = Overlapped(sequence, 0.5);
+  for (double& T : candidate.durations) T *= 0.9;
+  for (double& eta : candidate.height_scales) eta *= 0.8;
+  const FakeFeasibility test = UpTo(100);
+  Incumbent path(
+      sequence,
+      {.cost = [](const HomotopyParameters& p) { return DurationOf(p); }, .prove = Prove(test)},
+      planned, DurationOf(planned), &scratch_);
+  std::vector<bool> held(8, false);
+  held[3] = true;  // of the second step
+  const HomotopyParameters beside = path.Beside(candidate, held);
+  EXPECT_EQ(path.parameters(), planned) << "nothing is proved, so nothing moves";
+  EXPECT_EQ(test.questions.size(), 0u);
+  EXPECT_NEAR(path.Toward(candidate, 5, held), 6.0 / 8, 1e-12);
+  EXPECT_EQ(test.questions.size(), 1u);
+  EXPECT_TRUE(path.refusals().empty());
+  EXPECT_EQ(path.parameters(), beside);
+  for (size_t k = 0; k < 8; ++k) {
+    const bool stays = k == 2 || k == 3;
+    EXPECT_NEAR(beside.durations[k], (stays ? planned : candidate).durations[k], 1e-12) << k;
+    EXPECT_NEAR(beside.height_scales[k / 2], (stays ? planned : candidate).height_scales[k / 2],
+                1e-12);
+  }
+  for (size_t i = 0; i < 7; ++i) {
+    const bool stays = i >= 1 && i <= 3;  // beside half-step 2 or 3
+    EXPECT_NEAR(beside.overlaps[i], stays ? 0.0 : candidate.overlaps[i], 1e-12) << i;
+  }
+  // Where all are held there is nothing to ask about.
+  EXPECT_EQ(path.Toward(candidate, 5, std::vector<bool>(8, true)), 0.0);
+  EXPECT_EQ(test.questions.size(), 1u);
+}
+
+TEST_F(IncumbentTest, WhereWhatIsRefusedDoesNotMoveItIsLeftAlone) {
   const HomotopyParameters candidate = Overlapped(sequence_, 0.9);
   const FakeFeasibility test(evaluator_, [&](const HomotopyParameters& p) {
     for (size_t i = 0; i < p.overlaps.size(); ++i) {
@@ -93,10 +129,9 @@ TEST_F(IncumbentTest, ACandidateThatIsRefusedEverywhereIsApproachedAsAWhole) {
     return Verdict::kFeasible;
   });
   Incumbent path = Path(test, planned_);
-  EXPECT_EQ(path.Toward(candidate, 8), 0.25);
-  for (size_t i = 0; i < candidate.overlaps.size(); ++i) {
-    EXPECT_NEAR(path.parameters().overlaps[i], 0.25 * candidate.overlaps[i], 1e-12);
-  }
+  EXPECT_EQ(path.Toward(candidate, 8), 0.0);
+  EXPECT_EQ(path.refused(), 2) << "the same half-steps refuse it again";
+  EXPECT_EQ(path.parameters(), planned_);
 }
 
 TEST_F(IncumbentTest, WithoutLocalityAllIsHeldBackAlike) {

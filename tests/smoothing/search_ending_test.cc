@@ -3,11 +3,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <stop_token>
+#include <string>
+
+#include "smoothing/methods/smoothing_monitor.h"
+
 namespace halfstep {
 namespace {
 
 using opt::Ending;
 using testing::HasSubstr;
+using testing::StartsWith;
 
 SearchEnding After(Ending last, bool own) {
   SearchEnding end{.solver = "solver", .own = own, .kept = "the walk is a dichotomy's"};
@@ -18,21 +24,29 @@ SearchEnding After(Ending last, bool own) {
   return end;
 }
 
+// What a monitor ends a search by: the effort, the clock and the caller.
+SmoothingMonitor Used() { return SmoothingMonitor({.effort = 0.0}); }
+SmoothingMonitor Late() { return SmoothingMonitor({.deadline = 0.0}); }
+SmoothingMonitor Stopped() {
+  std::stop_source source;
+  source.request_stop();
+  return SmoothingMonitor({.stop = source.get_token()});
+}
+
 TEST(SearchEnding, WithoutAResultOfItsOwnIsNeverOneOfTheFirstFour) {
   for (const Ending last : opt::kEndings) {
-    for (const bool stopped : {false, true}) {
-      for (const bool late : {false, true}) {
-        SearchEnding end = After(last, false);
-        end.stopped = stopped;
-        end.deadline_passed = late;
-        EXPECT_FALSE(HasOwnResult(end.Ending())) << end.Sentence();
-        EXPECT_THAT(end.Sentence(), HasSubstr("the walk is a dichotomy's"));
-        end.own = true;
-        EXPECT_TRUE(HasOwnResult(end.Ending())) << end.Sentence();
-        const std::string because = last == Ending::kDeadline ? "" : ": Because.";
-        EXPECT_THAT(end.Sentence(),
-                    HasSubstr("solver last ended " + std::string(Name(last)) + because));
-      }
+    for (const auto& monitor : {Used, Late, Stopped, +[] { return SmoothingMonitor(); }}) {
+      SearchEnding end = After(last, false);
+      const SmoothingMonitor ended = monitor();
+      if (ended.stopped()) end.NoteCut(ended);
+      EXPECT_FALSE(HasOwnResult(end.Ending())) << end.Sentence();
+      EXPECT_THAT(end.Sentence(), HasSubstr("the walk is a dichotomy's"));
+      end.own = true;
+      EXPECT_TRUE(HasOwnResult(end.Ending())) << end.Sentence();
+      // What was left of the effort for the last round is nobody's concern.
+      const std::string because = ended.stopped() ? "" : ": Because.";
+      EXPECT_THAT(end.Sentence(),
+                  testing::EndsWith("solver last ended " + std::string(Name(last)) + because));
     }
   }
 }
@@ -40,13 +54,13 @@ TEST(SearchEnding, WithoutAResultOfItsOwnIsNeverOneOfTheFirstFour) {
 TEST(SearchEnding, SaysWhy) {
   SearchEnding never{.solver = "solver", .kept = "the walk is a dichotomy's"};
   EXPECT_EQ(never.Ending(), Ending::kNotRun);
-  never.deadline_passed = true;
+  never.NoteCut(Used());
+  EXPECT_EQ(never.Ending(), Ending::kNotRun);
   EXPECT_EQ(never.Sentence(),
-            "the deadline passed before solver was called; the walk is a dichotomy's");
+            "the effort of 0 was used before solver was called; the walk is a dichotomy's");
   EXPECT_EQ(After(Ending::kInvalidInput, false).Ending(), Ending::kInvalidInput);
   EXPECT_EQ(After(Ending::kFailed, false).Ending(), Ending::kFailed);
   EXPECT_EQ(After(Ending::kConverged, false).Ending(), Ending::kNoImprovement);
-  EXPECT_EQ(After(Ending::kDeadline, true).Ending(), Ending::kDeadline);
   EXPECT_EQ(After(Ending::kLimit, true).Ending(), Ending::kConverged) << "rounds stopped to gain";
   EXPECT_EQ(After(Ending::kFailed, true).Ending(), Ending::kLimit) << "broke down, with a gain";
   SearchEnding end = After(Ending::kFailed, false);
@@ -57,16 +71,20 @@ TEST(SearchEnding, SaysWhy) {
   end = After(Ending::kLimit, true);
   end.exhausted = true;
   EXPECT_EQ(end.Ending(), Ending::kLimit);
-  end.stopped = true;
+  end.NoteCut(Stopped());
   EXPECT_EQ(end.Ending(), Ending::kInterrupted);
+  EXPECT_THAT(end.Sentence(), StartsWith("stopped from outside"));
 }
 
-// What was given, not what was left of it for the last round.
-TEST(SearchEnding, TellsTheDeadlineThatWasGiven) {
-  SearchEnding end = After(Ending::kDeadline, true);
-  end.deadline = 3.0;
-  end.last_message = "The deadline of 0.132 s passed.";
-  EXPECT_EQ(end.Sentence(), "the deadline of 3 s passed; solver last ended deadline");
+// Only what the clock ends is told as such: that is not the same twice.
+TEST(SearchEnding, TellsTheEffortFromTheClock) {
+  SearchEnding end = After(Ending::kLimit, true);
+  end.NoteCut(Used());
+  EXPECT_EQ(end.Ending(), Ending::kLimit);
+  EXPECT_THAT(end.Sentence(), StartsWith("the effort of 0 was used"));
+  end.NoteCut(Late());
+  EXPECT_EQ(end.Ending(), Ending::kDeadline);
+  EXPECT_THAT(end.Sentence(), StartsWith("ended by the clock: the deadline of 0 s passed"));
 }
 
 // Rounds that gain nothing because rows stay violated are no convergence.

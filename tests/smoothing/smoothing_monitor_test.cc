@@ -45,7 +45,7 @@ TEST_F(SmoothingMonitorTest, AStartThatIsNotProvedIsRefusedWithItsWitness) {
     EXPECT_EQ(planned.ending, Ending::kNotRun);
     EXPECT_FALSE(planned.feasible);
     EXPECT_THAT(planned.message, HasSubstr("the planned motion is not feasible: zmp"));
-    EXPECT_EQ(planned.instants, 1);
+    EXPECT_EQ(planned.work, (Work{.instants = 1}));
 
     SmoothingMonitor other;
     EXPECT_FALSE(other.BeginFeasibly(problem, Shorter()));
@@ -85,20 +85,55 @@ TEST_F(SmoothingMonitorTest, ADroppedStartMakesEveryWalkAnImprovement) {
   EXPECT_EQ(monitor.FinishAgainstStart(Ending::kConverged, "done", "; no gain").message, "done");
 }
 
-TEST_F(SmoothingMonitorTest, StopsForTheCallerOrAtTheDeadlineAndSaysWhich) {
+TEST_F(SmoothingMonitorTest, EndsForTheCallerByItsEffortOrByTheClockAndSaysWhich) {
   std::stop_source source;
   SmoothingMonitor endless({.stop = source.get_token()});
   EXPECT_FALSE(endless.stopped());
   source.request_stop();
   EXPECT_TRUE(endless.stopped());
+  EXPECT_TRUE(endless.cut_off());
   EXPECT_EQ(endless.StopEnding(), Ending::kInterrupted);
   EXPECT_EQ(endless.StopReason(), "stopped from outside");
 
-  const SmoothingMonitor late({.deadline = 0.0});
+  const SmoothingMonitor used({.effort = 0.0});
+  EXPECT_TRUE(used.stopped());
+  EXPECT_FALSE(used.cut_off()) << "what the effort ends is the same twice";
+  EXPECT_EQ(used.StopEnding(), Ending::kLimit);
+  EXPECT_EQ(used.StopReason(), "the effort of 0 was used");
+
+  const SmoothingMonitor late({.effort = 0.0, .deadline = 0.0});
   EXPECT_TRUE(late.stopped());
+  EXPECT_TRUE(late.cut_off());
   EXPECT_FALSE(late.interrupted());
   EXPECT_EQ(late.StopEnding(), Ending::kDeadline);
-  EXPECT_EQ(late.StopReason(), "the deadline passed");
+  EXPECT_EQ(late.StopReason(), "ended by the clock: the deadline of 0 s passed");
+}
+
+// Of its own proofs, of what it is told and of parts, each once.
+TEST_F(SmoothingMonitorTest, EffortIsUsedByAllWork) {
+  const FakeFeasibility test = Always(Verdict::kFeasible);
+  const WalkProblem problem = ProblemOf(sequence_, test);
+  SmoothingMonitor monitor({.effort = 1.0});
+  ASSERT_TRUE(monitor.BeginFeasibly(problem, PlannedMotion(sequence_)));
+  EXPECT_EQ(monitor.work(), (Work{.instants = 1}));
+  monitor.Count({.derivatives = 2, .linear_algebra = 30}, 4);
+  const Work so_far{.instants = 1, .derivatives = 2, .linear_algebra = 30};
+  EXPECT_EQ(monitor.work(), so_far);
+  EXPECT_DOUBLE_EQ(monitor.EffortLeft(), 1.0 - so_far.effort());
+  SmoothingMonitor part(monitor.Part(0.0, 1.0));
+  EXPECT_DOUBLE_EQ(part.effort(), monitor.EffortLeft());
+  ASSERT_TRUE(part.BeginFeasibly(problem, PlannedMotion(sequence_)));
+  monitor.Count(part.Finish(Ending::kConverged, "done"));
+  EXPECT_EQ(monitor.work(), (Work{.instants = 2, .derivatives = 2, .linear_algebra = 30}));
+  EXPECT_FALSE(monitor.stopped());
+  monitor.LimitTo(2.0);
+  EXPECT_EQ(monitor.effort(), 1.0) << "limits only lower it";
+  monitor.LimitTo(monitor.work().effort());
+  EXPECT_TRUE(monitor.stopped());
+  const SmoothingResult result = monitor.Finish(monitor.StopEnding(), monitor.StopReason());
+  EXPECT_EQ(result.ending, Ending::kLimit);
+  EXPECT_EQ(result.work, (Work{.instants = 2, .derivatives = 2, .linear_algebra = 30}));
+  EXPECT_EQ(result.collision_queries, 4);
 }
 
 TEST_F(SmoothingMonitorTest, APartReportsItsShareAndStopsWithTheWhole) {
@@ -112,30 +147,39 @@ TEST_F(SmoothingMonitorTest, APartReportsItsShareAndStopsWithTheWhole) {
   part.Progress(0.5);
   part.Progress(1.0);
   EXPECT_THAT(told, testing::Pointwise(testing::DoubleNear(1e-12), {0.2, 0.4, 0.6}));
-  EXPECT_LE(part.Remaining(), 1000.0);
+  EXPECT_LE(part.deadline(), 1000.0);
+  EXPECT_EQ(part.effort(), std::numeric_limits<double>::infinity());
   EXPECT_FALSE(part.stopped());
   source.request_stop();
   EXPECT_TRUE(part.interrupted());
-  EXPECT_TRUE(SmoothingMonitor(SmoothingMonitor({.deadline = 0.0}).Part(0, 1)).stopped());
+  EXPECT_TRUE(SmoothingMonitor(SmoothingMonitor({.effort = 0.0}).Part(0, 1)).stopped());
+  EXPECT_TRUE(SmoothingMonitor(SmoothingMonitor({.deadline = 0.0}).Part(0, 1)).cut_off());
 }
 
-// Every method: no time at all is a result, the feasible start, and its sentence says why. The
+// Every method: no work at all is a result, the feasible start, and its sentence says why. The
 // bound of reference/lipm is a formula, which takes none.
-TEST_F(SmoothingMonitorTest, EveryMethodKeepsTheStartWhenTheDeadlinePassedBefore) {
+TEST_F(SmoothingMonitorTest, EveryMethodKeepsTheStartWhenNothingIsLeft) {
   const FakeFeasibility test = Always(Verdict::kFeasible);
   const WalkProblem problem = ProblemOf(sequence_, test);
   const Methods methods = Methods::Standard();
-  for (const auto& smoother : methods.all()) {
-    const std::string name = smoother->name();
-    SCOPED_TRACE(name);
-    SmoothingMonitor monitor({.deadline = 0.0});
-    const SmoothingResult result = smoother->Smooth(problem, {}, monitor);
-    EXPECT_THAT(result.ending,
-                testing::AnyOf(Ending::kNotRun, Ending::kDeadline, Ending::kNoImprovement));
-    EXPECT_THAT(result.message,
-                HasSubstr(name == "reference/lipm" ? "no walk of a LIPM" : "the deadline passed"));
-    EXPECT_LE(test.questions.size(), 40u);
-    test.questions.clear();
+  for (const bool by_clock : {false, true}) {
+    for (const auto& smoother : methods.all()) {
+      const std::string name = smoother->name();
+      SCOPED_TRACE(name);
+      MonitorOptions none;
+      (by_clock ? none.deadline : none.effort) = 0.0;
+      SmoothingMonitor monitor(none);
+      const SmoothingResult result = smoother->Smooth(problem, {}, monitor);
+      EXPECT_THAT(result.ending, testing::AnyOf(Ending::kNotRun, Ending::kNoImprovement,
+                                                by_clock ? Ending::kDeadline : Ending::kLimit));
+      EXPECT_THAT(result.message, HasSubstr(name == "reference/lipm" ? "no walk of a LIPM"
+                                            : by_clock ? "ended by the clock: the deadline of 0 s"
+                                                       : "the effort of 0 was used"));
+      EXPECT_TRUE(result.feasible);
+      EXPECT_LE(DurationOf(result.parameters), DurationOf(PlannedMotion(sequence_)));
+      EXPECT_LE(test.questions.size(), 40u);
+      test.questions.clear();
+    }
   }
 }
 

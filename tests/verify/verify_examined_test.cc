@@ -116,7 +116,7 @@ TEST(Examined, AKeyThatVerifyDoesNotKnowIsRefused) {
 TEST(Examined, FormsMoveOnlyWhereTheConfigLetsThem) {
   TamperedRun run(
       {.overrides = {"smoothing.methods=[halfstep/sqp]", "smoothing.optimizer.footsteps=true",
-                     "smoothing.optimizer.deadline_s=3"}});
+                     "smoothing.optimizer.effort=3"}});
   const auto verified = [&] {
     return verify::VerifyRun({.run = run.run().string(), .method = "halfstep/sqp"}).front();
   };
