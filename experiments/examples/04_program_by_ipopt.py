@@ -4,7 +4,7 @@ import halfstep as hs
 experiment = hs.Experiment("fig5_box")
 why_not = hs.solvers()["ipopt"]
 method = "halfstep/sqp" if why_not else "ipopt"
-result = experiment.smooth(method, heights=True, durations=True, rounds=2, planned_start=False)
+result = experiment.smooth(method, heights=True, durations=True, rounds=2)
 print(f"{method}: {result.duration:.3f} s, {'certified' if result.certify() else 'not proved'}, "
       f"the dichotomy {experiment.smooth('dichotomy').duration:.3f} s")
 for name, values in result.parameters.items():

@@ -17,6 +17,5 @@ def descend(problem, x):
 hs.register_solver("mine/descent", descend)  # now a method beside halfstep/sqp, in YAML, too
 experiment = hs.Experiment("bar_8cm")
 print(f"dichotomy    {experiment.smooth('dichotomy').duration:.3f} s")
-result = experiment.smooth("mine/descent", heights=True, durations=True, rounds=2,
-                           planned_start=False)
+result = experiment.smooth("mine/descent", heights=True, durations=True, rounds=2)
 print(f"mine/descent {result.duration:.3f} s, {result.certify().status}")

@@ -27,7 +27,7 @@ SmoothingMonitor& SmoothingTask::monitor() const {
 }
 
 double SmoothingTask::remaining() const {
-  return stopped() ? 0.0 : std::max(0.0, monitor_->Remaining());
+  return stopped() ? 0.0 : std::max(0.0, monitor_->deadline() - monitor_->Seconds());
 }
 
 HomotopyParameters SmoothingTask::incumbent() const { return monitor().incumbent(); }
