@@ -172,7 +172,8 @@ TEST(EndingsByTheClock, AreMarkedWhereverARowIsShown) {
   EXPECT_EQ(json["methods"][1]["repeatable"], true);
   EXPECT_EQ(json["methods"][2]["repeatable"], false);
   const Outcome compared = Halfstep(place.path(), {"compare", "run"});
-  EXPECT_THAT(compared.out, testing::ContainsRegex(std::string("\nhalfstep/sqp [^\n]*\\(") + kMark));
+  EXPECT_THAT(compared.out,
+              testing::ContainsRegex(std::string("\nhalfstep/sqp [^\n]*\\(") + kMark));
   if (!HasReport()) return;
   EXPECT_THAT(ReadText(place / "run/report.html"),
               HasSubstr(std::string("\"not_repeatable\":\"") + kMark));
