@@ -83,7 +83,7 @@ make_sweep() {  # 200 cases of the box, by overlaps alone and with durations.
           --set "smoothing.margins.clearance_m=$clearance" --set output.period_s=0.1 \
           --set 'smoothing.methods=[dichotomy, halfstep/barrier]' \
           --set smoothing.optimizer.durations=true --set smoothing.optimizer.least_duration=0.2 \
-          --set smoothing.optimizer.deadline_s=2 2>"$work/said" || {
+          --set smoothing.optimizer.effort=2 2>"$work/said" || {
             grep -qE 'plan is not feasible|: (not_run|invalid_input|failed): ' "$work/said" || { cat "$work/said" >&2; exit 1; }; }
         pick "$work/run/summary.csv" "v=$speed" "c=$clearance" $columns
       done
@@ -98,17 +98,17 @@ make_methods() {  # Eight methods on six scenarios, over overlaps, heights and d
       --set 'smoothing.methods=[dichotomy, dichotomy/published, dichotomy/uniform, ipopt, nlopt/ccsaq,
              nlopt/slsqp, halfstep/barrier, halfstep/sqp]' \
       --set smoothing.optimizer.heights=true --set smoothing.optimizer.durations=true \
-      --set smoothing.optimizer.deadline_s=5 || [ $? -eq 1 ]  # 1: a method failed
+      --set smoothing.optimizer.effort=5 || [ $? -eq 1 ]  # 1: a method failed
     runs="$runs $work/$scenario"
   done
   "$halfstep" compare $runs --quiet --out "$work/comparison"
   columns="scenario objective half_steps method variables status certified duration_s gap_to_best wall_s"
   { header $columns; pick "$work/comparison/comparison.csv" $columns; } >"$work/table"
   keep methods/comparison.csv
-  columns="gap effort method variables objective ratio fraction"
+  columns="gap work method variables objective ratio fraction"
   { header $columns; pick "$work/comparison/performance_profile.csv" $columns; } >"$work/table"
   keep methods/performance_profile.csv
-  columns="scenario objective method variables wall_s instants duration_s gap_to_best"
+  columns="scenario objective method variables wall_s effort duration_s gap_to_best"
   { header $columns; pick "$work/comparison/anytime.csv" $columns; } >"$work/table"
   keep methods/anytime.csv
 }

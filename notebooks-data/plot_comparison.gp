@@ -4,10 +4,10 @@
 # Variables (-e "a='x'; b='y'"), all with defaults:
 #   comparison   folder that `halfstep compare --out` wrote
 #   scenario     of the anytime curves (default: the first of comparison.csv)
-#   effort       of the profiles: instants (reproducible) or wall_s
+#   work         of the profiles: effort (reproducible) or wall_s
 #   out          PNG file written (default: comparison.png in that folder)
 if (!exists("comparison")) comparison = "runs/comparison"
-if (!exists("effort")) effort = "instants"
+if (!exists("work")) work = "effort"
 if (!exists("out")) out = comparison . "/comparison.png"
 profile = comparison . "/performance_profile.csv"
 anytime = comparison . "/anytime.csv"
@@ -30,7 +30,7 @@ if (!exists("scenario")) {
 }
 
 mine(c) = strcol("method") eq method(c) && strcol("variables") eq variables(c)
-ratio(c, gap) = mine(c) && strcol("objective") eq "fastest" && strcol("gap") eq gap && strcol("effort") eq effort ? column("ratio") : NaN
+ratio(c, gap) = mine(c) && strcol("objective") eq "fastest" && strcol("gap") eq gap && strcol("work") eq work ? column("ratio") : NaN
 here(c) = mine(c) && strcol("scenario") eq scenario && strcol("objective") eq "fastest"
 spent(c, what, least) = here(c) ? (column(what) > least ? column(what) : least) : NaN
 
@@ -76,8 +76,8 @@ gaps = "0.05 0.01 inf"
 titles = "'within 5 % of the best' 'within 1 % of the best' 'ended, certified'"
 set tmargin at screen top
 set bmargin at screen middle + 0.085
-set xlabel effort eq "wall_s" ? "wall time / least wall time of any method" \
-    : "instants / fewest of any method" offset 0,0.5
+set xlabel work eq "wall_s" ? "wall time / least wall time of any method" \
+    : "effort / least effort of any method" offset 0,0.5
 do for [panel = 1:3] {
   gap = word(gaps, panel)
   set lmargin at screen 0.075 + (panel - 1) * 0.315
@@ -86,7 +86,7 @@ do for [panel = 1:3] {
   if (panel == 1) { set ylabel "fraction of scenarios solved" offset 1.2,0 } else { unset ylabel }
   set xrange [*:*]
   set yrange [*:*]
-  stats profile using (strcol("gap") eq gap && strcol("effort") eq effort ? column("ratio") : NaN) \
+  stats profile using (strcol("gap") eq gap && strcol("work") eq work ? column("ratio") : NaN) \
       name "R" nooutput
   set xrange [1:(R_max > 1.5 ? R_max : 1.5)]
   set yrange [0:1.04]
@@ -101,12 +101,12 @@ set ytics autofreq
 set xtics autofreq
 set title sprintf("%s: best walk so far", scenario) offset 0,-0.6 noenhanced
 do for [panel = 1:2] {
-  what = panel == 1 ? "wall_s" : "instants"
-  least = panel == 1 ? 0.01 : 100
+  what = panel == 1 ? "wall_s" : "effort"
+  least = 0.01
   set lmargin at screen 0.075 + (panel - 1) * 0.475
   set rmargin at screen 0.075 + (panel - 1) * 0.475 + 0.42
   set xrange [least:*]
-  set xlabel panel == 1 ? "wall time  [s]" : "instants  [instants]" offset 0,0.5
+  set xlabel panel == 1 ? "wall time  [s]" : "effort" offset 0,0.5
   if (panel == 1) { set ylabel "duration of the walk  [s]" offset 0.6,0 } else { unset ylabel }
   plot for [i = 1:words(curves)] anytime using (spent(word(curves, i), what, least)): \
       (column("duration_s")) with steps linetype i notitle

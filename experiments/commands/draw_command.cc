@@ -56,7 +56,6 @@ ExitStatus DrawWalks(const DrawCommand& command) {
       "reference/lipm]\"]}\n"
       "  - {key: smoothing.optimizer.heights, values: [true]}\n"
       "  - {key: smoothing.optimizer.durations, values: [true]}\n"
-      "  - {key: smoothing.optimizer.deadline_s, values: [600]}\n"
       "  - key: config\n    values:\n",
       count, command.seed, static_cast<int>(std::to_string(count).size()), 1);
   for (int i = 1; i <= count; ++i) {

@@ -56,7 +56,8 @@ void PrintPlan(const PlannedWalk& walk) {
   }
   std::cout << "# " << walk.config.planner.name << ": " << plan.sentence << ", " << plan.nodes
             << " nodes, " << plan.queries << " queries of " << walk.half_steps.size
-            << " half-steps, " << std::fixed << std::setprecision(1) << 1e3 * plan.time << " ms\n"
+            << " half-steps, effort " << std::fixed << std::setprecision(3) << plan.effort() << ", "
+            << std::setprecision(1) << 1e3 * plan.time << " ms\n"
             << std::defaultfloat << std::setprecision(6)
             << NotCoveredText(walk.not_covered, "--json", "# ");
   std::vector<FootstepConfig> footsteps = walk.config.footsteps;

@@ -24,17 +24,20 @@ class ProgressBars {
  public:
   explicit ProgressBars(bool quiet) : quiet_(quiet) {}
 
-  void Update(const std::string& what, double done) {
-    if (what != what_) {
+  void Update(const std::string& what, double done) { Of(what).Update(done); }
+  void Best(const std::string& what, double duration) { Of(what).Best(duration); }
+  void End() { bar_.reset(); }
+
+ private:
+  ProgressBar& Of(const std::string& what) {
+    if (!bar_ || what != what_) {
       bar_.reset();
       bar_.emplace(what, quiet_);
       what_ = what;
     }
-    bar_->Update(done);
+    return *bar_;
   }
-  void End() { bar_.reset(); }
 
- private:
   const bool quiet_;
   std::string what_;
   std::optional<ProgressBar> bar_;
@@ -85,6 +88,7 @@ ExitStatus Run(const RunCommand& command) {
   ProgressBars bars(command.quiet || command.json);
   const RunHooks hooks{
       .progress = [&bars](const std::string& what, double done) { bars.Update(what, done); },
+      .best = [&bars](const std::string& method, double walk) { bars.Best(method, walk); },
       .stop = interrupt.token(),
       .stop_step = interrupt.step_token(),
       .keep = [&interrupt] { interrupt.Keep(); }};

@@ -11,15 +11,15 @@ namespace halfstep {
 namespace {
 
 constexpr double kRounding = 1e-9;  // relative: a gap of 1 % that is met exactly is met
-constexpr RuntimeToTarget kLeast = {.wall = 0.001, .instants = 1.0};
-constexpr RuntimeToTarget kShift = {.wall = 0.1, .instants = 1000.0};
+constexpr RuntimeToTarget kLeast = {.wall = 0.001, .effort = 0.001};
+constexpr RuntimeToTarget kShift = {.wall = 0.1, .effort = 0.1};
 constexpr double kPenalty = 10.0;
 
 MethodKey KeyOf(const MethodRecord& record) {
   return {record.name, record.variables, record.objective};
 }
 
-double Of(const RuntimeToTarget& work, bool by_wall) { return by_wall ? work.wall : work.instants; }
+double Of(const RuntimeToTarget& work, bool by_wall) { return by_wall ? work.wall : work.effort; }
 
 // Puts a method into its case, unless it is there already with the same outcome.
 void Add(const MethodRecord& record, ComparedCase* one) {
@@ -66,7 +66,7 @@ bool Within(double value, double best, double target) {
 std::optional<RuntimeToTarget> Reached(const ComparedCase& one, const MethodRecord& record,
                                        double target) {
   if (!record.solved() || !one.best_cost) return std::nullopt;
-  const RuntimeToTarget end{record.wall, record.instants};
+  const RuntimeToTarget end{record.wall, record.effort};
   if (std::isinf(target)) {
     return record.ending == opt::Ending::kInterrupted ? std::nullopt : std::optional(end);
   }
@@ -75,7 +75,7 @@ std::optional<RuntimeToTarget> Reached(const ComparedCase& one, const MethodReco
     if (raw.certified && Within(raw.duration, *one.best_cost, target)) return RuntimeToTarget{};
     for (const IncumbentRecord& incumbent : record.incumbents) {
       if (Within(incumbent.duration, *one.best_cost, target)) {
-        return RuntimeToTarget{incumbent.wall, incumbent.instants};
+        return RuntimeToTarget{incumbent.wall, incumbent.effort};
       }
     }
   }

@@ -20,8 +20,8 @@ constexpr std::array<double, kNumTargets> kTargets = {0.01, 0.05,
 
 /// What it took a method to reach a target.
 struct RuntimeToTarget {
-  double wall = 0.0;      ///< [s]
-  double instants = 0.0;  ///< instants at which margins were evaluated
+  double wall = 0.0;    ///< [s]
+  double effort = 0.0;  ///< Work::effort
 };
 
 /// One method in one case, beside the best of that case.
@@ -71,11 +71,11 @@ Comparison Compare(const std::vector<RunRecord>& runs);
 const ComparedMethod* Find(const ComparedCase& one, const MethodKey& method);
 
 /// One curve of a performance profile: the fraction of all cases that a method solved within
-/// `ratio` times the least work of any method there. Work below 1 ms or one evaluation counts
+/// `ratio` times the least work of any method there. Work below 1 ms or an effort of 0.001 counts
 /// as that. Source: [DolanMore2002].
 struct ProfileCurve {
   int target = 0;        ///< of kTargets
-  bool by_wall = false;  ///< the work is wall time [s]; else instants
+  bool by_wall = false;  ///< the work is wall time [s]; else effort
   MethodKey method;      ///< whose curve this is
   std::vector<std::pair<double, double>>
       points;  ///< (ratio ≥ 1, fraction), both rising; a staircase
@@ -93,7 +93,7 @@ struct MethodMeans {
   /// Cases where it was interrupted, or has no certified walk of its own.
   int failed() const { return cases - solved.back(); }
   double speedup = 1.0;  ///< geometric mean
-  /// Shifted geometric means exp(mean log(v + s)) − s with s = 0.1 s and 1000 instants; nan
+  /// Shifted geometric means exp(mean log(v + s)) − s with s = 0.1 s and an effort of 0.1; nan
   /// when no case counts.
   std::array<RuntimeToTarget, kNumTargets> work;
 };

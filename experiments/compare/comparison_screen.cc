@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "experiments/compare/comparison_tables.h"
+#include "experiments/tables/ending_words.h"
 #include "wpg/files/text.h"
 
 namespace halfstep {
@@ -45,7 +46,7 @@ std::string CaseTable(const ComparedCase& one, const Widths& widths) {
   text += "\n\n" + Left("method", widths.name) + Left("variables", widths.variables) +
           Left("status", widths.status) +
           Formatted("%-9s %10s %8s %9s %11s %11s %11s %11s %11s\n", "certified", "duration",
-                    "speed-up", "gap", "cost", "instants", "wall time", "to 5 %", "to 1 %");
+                    "speed-up", "gap", "cost", "effort", "wall time", "to 5 %", "to 1 %");
   for (const ComparedMethod& method : one.methods) {
     const MethodRecord& record = method.record;
     text += Left(record.name, widths.name) +
@@ -56,9 +57,11 @@ std::string CaseTable(const ComparedCase& one, const Widths& widths) {
     text += std::isfinite(method.gap) ? Formatted("%7.2f %% ", 100.0 * method.gap)
                                       : Formatted("%9s ", "-");
     text += std::isnan(method.gap) ? Formatted("%11s ", "-") : Formatted("%11.4f ", record.cost);
-    text += Formatted("%11.0f %9.3f s ", record.instants, record.wall);
-    text += record.raw() ? Formatted("%11s %11s\n", "-", "-")
-                         : Seconds(method.reached[1]) + " " + Seconds(method.reached[0]) + "\n";
+    text += Formatted("%11.3f %9.3f s ", record.effort, record.wall);
+    text += record.raw() ? Formatted("%11s %11s", "-", "-")
+                         : Seconds(method.reached[1]) + " " + Seconds(method.reached[0]);
+    const std::string words(NotRepeatable(record.ending, record.message));
+    text += words.empty() ? "\n" : "  (" + words + ")\n";
   }
   return text + "\n";
 }

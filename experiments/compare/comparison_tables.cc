@@ -18,7 +18,7 @@ constexpr size_t kOnePercent = 0, kFivePercent = 1;
 
 std::optional<double> Spent(const std::optional<RuntimeToTarget>& work, bool by_wall) {
   if (!work) return std::nullopt;
-  return by_wall ? work->wall : work->instants;
+  return by_wall ? work->wall : work->effort;
 }
 
 // An empty cell would make a column of them something else to pandas.
@@ -51,14 +51,15 @@ CsvColumns ComparisonColumns(bool with_bound) {
       {"gap_to_best", kNumber, "1", "(cost - best)/|best|; inf: no certified walk of its own"},
       {"gap_to_reference", kNumber, "1", "as in summary.csv"},
       {"instants", kNumber, "", "instants evaluated by the method"},
+      {"effort", kNumber, "", "work of the method; 1 is about a second of one core of 2026"},
       {"collision_queries", kNumber, "", "pairs of bodies that were not culled"},
       {"wall_s", kNumber, "s", "of the method"},
       {"time_to_5pct_s", kNumber, "s",
        "until a certified walk within 5 % of the best cost; empty: never"},
       {"time_to_1pct_s", kNumber, "s",
        "until a certified walk within 1 % of the best cost; empty: never"},
-      {"instants_to_5pct", kNumber, "", "instants until then; empty: never"},
-      {"instants_to_1pct", kNumber, "", "instants until then; empty: never"},
+      {"effort_to_5pct", kNumber, "", "effort until then; empty: never"},
+      {"effort_to_1pct", kNumber, "", "effort until then; empty: never"},
       {"run", kString, "", "run folder, as it was named; after ./ where it begins like a formula"},
   };
   if (with_bound) columns.push_back({"gap_lipm", kNumber, "1", "as in summary.csv"});
@@ -83,7 +84,8 @@ CsvFile ComparisonCsv(const Comparison& comparison) {
       csv.Cell(record.speedup).Cell(compared ? std::optional(record.cost) : std::nullopt);
       csv.Cell(one.best_cost).Cell(compared ? std::optional(method.gap) : std::nullopt);
       csv.Cell(record.gap_to_reference);
-      csv.Cell(record.instants).Cell(record.collision_queries).Cell(record.wall);
+      csv.Cell(record.instants).Cell(record.effort);
+      csv.Cell(record.collision_queries).Cell(record.wall);
       for (bool by_wall : {true, false}) {
         csv.Cell(Spent(method.reached[kFivePercent], by_wall));
         csv.Cell(Spent(method.reached[kOnePercent], by_wall));
@@ -99,7 +101,7 @@ CsvFile ComparisonCsv(const Comparison& comparison) {
 CsvFile PerformanceProfileCsv(const Comparison& comparison) {
   CsvWriter csv({
       {"gap", kNumber, "1", "a method solves a scenario by a certified walk within it"},
-      {"effort", kString, "", "wall_s or instants"},
+      {"work", kString, "", "wall_s or effort"},
       {"method", kString, "", "its name, with the label of its run"},
       {"variables", kString, "", "of the method, none for raw"},
       {"objective", kString, "", "what the method pursued"},
@@ -110,7 +112,7 @@ CsvFile PerformanceProfileCsv(const Comparison& comparison) {
   for (const ProfileCurve& curve : PerformanceProfiles(comparison)) {
     for (const auto& [ratio, fraction] : curve.points) {
       csv.Cell(Nth(kTargets, curve.target));
-      csv.Cell(curve.by_wall ? "wall_s" : "instants");
+      csv.Cell(curve.by_wall ? "wall_s" : "effort");
       csv.Cell(curve.method.name).Cell(OrNone(curve.method.variables)).Cell(curve.method.objective);
       csv.Cell(ratio).Cell(fraction).EndRow();
     }
@@ -126,6 +128,7 @@ CsvFile AnytimeCsv(const Comparison& comparison) {
       {"variables", kString, "", "of the method"},
       {"wall_s", kNumber, "s", "since the method began"},
       {"instants", kNumber, "", "since the method began"},
+      {"effort", kNumber, "", "since the method began"},
       {"duration_s", kNumber, "s", "of the incumbent", "", CsvInterpolation::kPiecewiseConstant},
       {"gap_to_best", kNumber, "1", "by duration; empty: no best, or another objective", "",
        CsvInterpolation::kPiecewiseConstant},
@@ -136,17 +139,17 @@ CsvFile AnytimeCsv(const Comparison& comparison) {
       if (record.raw()) continue;
       const auto row = [&](const IncumbentRecord& incumbent) {
         csv.Cell(one.scenario).Cell(one.objective).Cell(record.name).Cell(OrNone(record.variables));
-        csv.Cell(incumbent.wall).Cell(incumbent.instants).Cell(incumbent.duration);
-        csv.Cell(GapOf(one, incumbent.duration)).EndRow();
+        csv.Cell(incumbent.wall).Cell(incumbent.instants).Cell(incumbent.effort);
+        csv.Cell(incumbent.duration).Cell(GapOf(one, incumbent.duration)).EndRow();
       };
       double last = one.methods.front().record.duration;
-      row({0.0, 0.0, last});
+      row({.duration = last});
       for (const IncumbentRecord& incumbent : record.incumbents) {
         if (incumbent.duration == last) continue;
         last = incumbent.duration;
         row(incumbent);
       }
-      row({record.wall, record.instants, record.duration});
+      row({record.wall, record.instants, record.effort, record.duration});
     }
   }
   return csv.file();
@@ -170,7 +173,7 @@ CsvFile MeansCsv(const Comparison& comparison) {
     columns.push_back({"time_to_" + target + "_mean_s", kNumber, "s", "shifted geometric mean"});
   }
   for (const std::string target : {"1pct", "5pct", "end"}) {
-    columns.push_back({"instants_to_" + target + "_mean", kNumber, "", "shifted geometric mean"});
+    columns.push_back({"effort_to_" + target + "_mean", kNumber, "", "shifted geometric mean"});
   }
   CsvWriter csv(columns);
   for (const MethodMeans& mean : Means(comparison)) {
@@ -180,7 +183,7 @@ CsvFile MeansCsv(const Comparison& comparison) {
     for (int solved : mean.solved) csv.Cell(solved);
     csv.Cell(mean.speedup);
     for (const RuntimeToTarget& work : mean.work) csv.Cell(work.wall);
-    for (const RuntimeToTarget& work : mean.work) csv.Cell(work.instants);
+    for (const RuntimeToTarget& work : mean.work) csv.Cell(work.effort);
     csv.EndRow();
   }
   return csv.file();

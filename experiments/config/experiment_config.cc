@@ -209,9 +209,7 @@ void DeclareFields(Fields& fields, ExperimentConfig* c) {
   });
   fields.Group("output", {.meaning = "what is written"}, [&](Fields& f) { DeclareOutput(f, c); });
   fields.Integer("seed", &c->seed,
-                 {.meaning = "of the planner's random numbers and of random starts",
-                  .min = 0,
-                  .max = 2147483647});
+                 {.meaning = "of the planner's random numbers", .min = 0, .max = 2147483647});
 }
 
 void DeclareFilesThere(Fields& fields, const ExperimentConfig& config) {

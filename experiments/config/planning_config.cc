@@ -128,11 +128,16 @@ void DeclarePlanner(Fields& fields, PlannerConfig* c) {
                  {.meaning = "it ends when so many did not improve the plan; 0: at the first plan",
                   .min = 0,
                   .max = 1000000000});
-  fields.Number("deadline_s", &c->deadline,
-                {.meaning = "it ends then; a plan that it ends depends on the machine",
-                 .unit = "s",
-                 .min = 0,
+  fields.Number("effort", &c->effort,
+                {.meaning = "it ends after so much work; 1 is about a second of one core of 2026",
+                 .min = 0.001,
                  .max = 86400});
+  fields.Number(
+      "deadline_s", &c->deadline,
+      {.meaning = "emergency stop by the clock, whose plan is not the same twice; 0: none",
+       .unit = "s",
+       .min = 0,
+       .max = 86400});
   fields.Integer(
       "max_refusals", &c->max_refusals,
       {.meaning = "plans whose concatenation may fail to be certified", .min = 1, .max = 1000});

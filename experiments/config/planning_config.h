@@ -30,7 +30,8 @@ struct PlannerConfig {
   StepCost estimate;              ///< its numbers; Cost() sets its kind by `cost`
   int max_nodes = 100000;         ///< ends the search
   int unimproved_nodes = 500;     ///< ends after these without a better plan; 0: at the first plan
-  double deadline = 60.0;         ///< [s]
+  double effort = 60.0;           ///< ends the search (PlanProgress::effort)
+  double deadline = 0.0;          ///< an emergency stop by the clock [s]; 0: none
   int max_refusals = 5;           ///< plans that the full check may refuse before planning ends
   std::vector<double> workspace;  ///< x_min, y_min, x_max, y_max [m]; empty: the planner's
   PlannerOptions options;         ///< of the planner by that name

@@ -91,18 +91,19 @@ std::string ValueLine(const std::vector<std::string>& values) {
 std::string ProgressLine(const MethodRecord& method, double raw_duration) {
   std::string line;
   double time = -1.0, duration = 0.0;
-  const auto sample = [&](double wall, double instants, double value) {
-    if (wall <= time) return;
-    time = wall;
-    duration = value;
-    line += Number(wall) + "," + Number(value) + "," + Number(instants) + ",;";
+  const auto sample = [&](const IncumbentRecord& at) {
+    if (at.wall <= time) return;
+    time = at.wall;
+    duration = at.duration;
+    line += Number(at.wall) + "," + Number(at.duration) + "," + Number(at.instants) + "," +
+            Number(at.effort) + ",;";
   };
-  sample(0.0, 0.0, raw_duration);
+  sample({.duration = raw_duration});
   for (const IncumbentRecord& incumbent : method.incumbents) {
     if (incumbent.duration == duration) continue;
-    sample(incumbent.wall, incumbent.instants, incumbent.duration);
+    sample(incumbent);
   }
-  sample(method.wall, method.instants, method.duration);
+  sample({method.wall, method.instants, method.effort, method.duration});
   return line;
 }
 
@@ -134,13 +135,14 @@ void AddMethods(const RunRecord& record, std::vector<LoggedPlanner>* planners) {
     LoggedPlanner& planner = PlannerOf(method.name, planners);
     planner.settings = {"objective = " + method.objective,
                         "variables = " + (method.raw() ? "none" : method.variables)};
-    planner.properties = {"status ENUM",      "solved BOOLEAN",           "time REAL",
-                          "best cost REAL",   "walk duration REAL",       "speedup REAL",
-                          "instants INTEGER", "collision queries INTEGER"};
+    planner.properties = {
+        "status ENUM",        "solved BOOLEAN", "time REAL",        "best cost REAL",
+        "walk duration REAL", "speedup REAL",   "instants INTEGER", "collision queries INTEGER",
+        "effort REAL"};
     planner.runs.push_back(ValueLine(
         {StatusIndex(std::string(Name(method.ending))), method.solved() ? "1" : "0",
          Number(method.wall), Number(method.cost), Number(method.duration), Number(method.speedup),
-         Number(method.instants), Number(method.collision_queries)}));
+         Number(method.instants), Number(method.collision_queries), Number(method.effort)}));
     if (!method.raw()) planner.progress.push_back(ProgressLine(method, raw_duration));
   }
 }
@@ -154,7 +156,7 @@ std::string PlannerText(const LoggedPlanner& planner) {
   std::string text = planner.name + "\n" + block(planner.settings, "common properties");
   text += block(planner.properties, "properties for each run") + block(planner.runs, "runs");
   if (!planner.progress.empty()) {
-    text += block({"time REAL", "best cost REAL", "instants INTEGER"},
+    text += block({"time REAL", "best cost REAL", "instants INTEGER", "effort REAL"},
                   "progress properties for each run");
     text += block(planner.progress, "runs");
   }
@@ -163,7 +165,7 @@ std::string PlannerText(const LoggedPlanner& planner) {
 
 std::string ScenarioLog(const std::string& scenario, const std::vector<LoggedRun>& runs) {
   std::vector<LoggedPlanner> planners;
-  double deadline = 0.0, total = 0.0;
+  double limit = 0.0, total = 0.0;
   std::string setup;
   for (const LoggedRun& run : runs) {
     if (!run.plan.is_null()) AddPlan(run.plan, &planners);
@@ -173,7 +175,7 @@ std::string ScenarioLog(const std::string& scenario, const std::vector<LoggedRun
              Member(run.manifest, "scene") + ", seed " + Member(run.manifest, "seed") +
              ", accepted when " + Member(run.manifest, "acceptance") + "\n";
     for (const json& method : run.manifest["methods"]) {
-      deadline = std::max(deadline, method["requested"].value("deadline_s", 0.0));
+      limit = std::max(limit, method["requested"].value("effort", 0.0));  // about a second each
     }
   }
   const json& first = runs.front().manifest;
@@ -184,7 +186,7 @@ std::string ScenarioLog(const std::string& scenario, const std::vector<LoggedRun
   text += "<<<|\n" + Member(first["host"], "system") + " " + Member(first["host"], "release") +
           ", " + Member(first["host"], "cores") + " cores\n|>>>\n";
   text += Member(first, "seed") + " is the random seed\n";
-  text += Number(deadline) + " seconds per run\n0 MB per run\n";
+  text += Number(limit) + " seconds per run\n0 MB per run\n";
   text += std::to_string(runs.size()) + " runs per planner\n";
   text += Number(total) + " seconds spent to collect the data\n1 enum type\nstatus";
   for (const std::string& status : Statuses()) text += "|" + status;

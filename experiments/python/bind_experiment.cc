@@ -14,6 +14,7 @@
 #include "experiments/run/plan_inputs.h"
 #include "experiments/run/planning.h"
 #include "experiments/run/smoothing_of.h"
+#include "experiments/tables/ending_words.h"
 #include "experiments/tables/result_tables.h"
 #include "smoothing/margins/not_covered_by.h"
 #include "smoothing/methods/overlap_prices.h"
@@ -71,6 +72,8 @@ py::dict ResultOf(const std::shared_ptr<const WalkSetting>& setting, const std::
   dict["cost"] = run.result.cost;
   dict["wall"] = run.result.wall;
   dict["instants"] = run.result.work.evaluated();
+  dict["effort"] = run.result.work.effort();
+  dict["repeatable"] = NotRepeatable(run.result.ending, run.result.message).empty();
   dict["walk"] =
       PlacedWalk{setting, SuperposedWalk(setting->problem.sequence(), run.result.parameters)};
   dict["iterates"] = ToPython(IteratesCsv(run));

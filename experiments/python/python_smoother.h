@@ -24,9 +24,9 @@ class SmoothingTask {
   const MethodOptions& options() const { return options_; }
   const NamedOptions& own() const { return own_; }
   bool running() const { return monitor_ != nullptr; }
-  /// Whether the method is to end: by Ctrl-C, its deadline or because it has ended.
+  /// Whether the method is to end: by Ctrl-C, its effort, its deadline or because it has ended.
   bool stopped() const { return monitor_ == nullptr || monitor_->stopped(); }
-  double remaining() const;  ///< [s]; 0 when stopped
+  double remaining() const;  ///< until the deadline [s], +∞: none; 0 when stopped
   HomotopyParameters incumbent() const;
   double duration() const;  ///< of the incumbent [s]
 

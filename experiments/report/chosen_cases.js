@@ -27,10 +27,11 @@ function rowsOf(cases, i) {
   return cases.methods.map((_, m) => m).filter((m) => cases.has(m, i)).map((m, k) => {
     const of = cases.tables[m];
     const status = cases.statuses[of.status[i]];
+    const words = cases.notRepeatable[status];
     const margin = of.margin[i] === null ? "–" : `${cases.families[of.margin_of[i]]} ${text(of.margin[i], 3)}`;
     return [k === 0 ? caseCell(cases, i) : "", ...cases.axes.map((axis) => (k === 0 ? axis.texts[axis.at[i]] : "")),
-      cases.methods[m], element("span", { text: status, title: cases.meanings[status] }), verdict(cases, m, i),
-      text(of.duration[i], 5), margin.replaceAll("_", " "), text(of.instants[i], 6),
+      cases.methods[m], element("span", { text: words ? `${status} (${words})` : status, title: cases.meanings[status] }), verdict(cases, m, i),
+      text(of.duration[i], 5), margin.replaceAll("_", " "), text(of.effort[i], 4),
       of.message[i] === null ? "" : cases.messages[of.message[i]]];
   });
 }
@@ -49,7 +50,7 @@ export function showCases(parent, cases, list, words) {
   parent.replaceChildren(title, element("p", { className: "hint", text: words }));
   if (list.length) {
     parent.append(table(["case", ...cases.axes.map((axis) => axis.label), "method", "status", "for all t",
-      "duration [s]", "worst margin [m, rad, s]", "instants", "message"], rows));
+      "duration [s]", "worst margin [m, rad, s]", "effort", "message"], rows));
   }
   if (shown < list.length) {
     parent.append(element("p", { className: "small", text: `and ${list.length - shown} more, in runs.csv` }));

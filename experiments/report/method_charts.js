@@ -22,7 +22,7 @@ function kindsOf(objective, profiles, methods) {
         curve.target === target && curve.by_wall === byWall);
       if (curves.length < 2) continue;
       kinds.push({
-        label: `${byWall ? "run time" : "instants evaluated"} ${words}`,
+        label: `${byWall ? "run time" : "effort"} ${words}`,
         note: "A scenario is solved by a proved walk of the method's own.",
         curves: curves.map(({ method, variables, points }) => {
           const name = methodLabel(method, variables);

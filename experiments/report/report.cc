@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 
 #include "experiments/config/experiment.h"
@@ -15,6 +16,7 @@
 #include "experiments/tables/certificate_files.h"
 #include "experiments/tables/certificate_statement.h"
 #include "experiments/tables/csv_reader.h"
+#include "experiments/tables/ending_words.h"
 #include "experiments/tables/json_file.h"
 #include "experiments/tables/margin_columns.h"
 #include "opt/solvers/ending.h"
@@ -75,7 +77,7 @@ void AddFamilies(const RobotModel& robot, json* report) {
 // What is shown of each status.
 json EndingsJson() {
   json endings = json::object();
-  for (opt::Ending ending : opt::kEndings) endings[Name(ending)] = Meaning(ending);
+  for (opt::Ending ending : opt::kEndings) endings[Name(ending)] = FullMeaning(ending);
   return endings;
 }
 
@@ -116,13 +118,16 @@ json SummaryOf(const MethodRecord& record) {
               {"duration_s", Shortened(record.duration, 6)},
               {"speedup", Shortened(record.speedup, 6)},
               {"cost", Shortened(record.cost, 6)},
+              {"effort", Shortened(record.effort, 6)},
+              {"not_repeatable", NotRepeatable(record.ending, record.message)},
               {"wall_s", Shortened(record.wall, 6)}};
   if (record.gap_lipm) row["gap_lipm"] = Shortened(*record.gap_lipm, 6);
   return row;
 }
 
-// A row of a run's summary.csv, with whether the walk is the method's own.
-json WithOwn(json row, const fs::path& summary) {
+// A row of a run's summary.csv, with whether the walk is the method's own, and is the same each
+// time: the manifest's `message` tells.
+json WithOwn(json row, const std::string& message, const fs::path& summary) {
   const auto status = row.at("status").get<std::string>();
   const std::optional<opt::Ending> ending = opt::EndingOf(status);
   if (!ending) {
@@ -130,7 +135,20 @@ json WithOwn(json row, const fs::path& summary) {
         {summary.string() + ": status: " + Quote(status) + " (valid: " + opt::EndingNames() + ")"});
   }
   row["own"] = HasOwnResult(*ending);
+  row["not_repeatable"] = NotRepeatable(*ending, message);
   return row;
+}
+
+// What the manifest says of how each method ended.
+std::map<std::string, std::string> MessagesOf(const json& manifest) {
+  std::map<std::string, std::string> messages;
+  if (!manifest.contains("methods")) return messages;
+  for (const json& method : manifest["methods"]) {
+    if (!method.is_object()) continue;
+    const json name = method.value("name", json()), message = method.value("message", json());
+    if (name.is_string() && message.is_string()) messages[name] = message;
+  }
+  return messages;
 }
 
 // Walks are drawn with today's files; these must be those that they were made for.
@@ -251,6 +269,7 @@ std::string RunReport(const RobotModel& robot, const Scene& scene, const fs::pat
   }
   json one = CaseOf(report["name"], folder, robot, scene, &report);
   const json summary = RowsJson(folder / "summary.csv");
+  std::map<std::string, std::string> messages = MessagesOf(manifest);
   double total = 0.0;
   for (double duration : ReadCsv((folder / "summary.csv").string()).Numbers("duration_s")) {
     total += duration;
@@ -258,7 +277,7 @@ std::string RunReport(const RobotModel& robot, const Scene& scene, const fs::pat
   for (const json& row : summary) {
     const auto method = row.at("method").get<std::string>();
     json walk = DrawnWalk(robot, scene, folder / MethodFolder(method), SpacingFor(total));
-    walk["summary"] = WithOwn(row, folder / "summary.csv");
+    walk["summary"] = WithOwn(row, messages[method], folder / "summary.csv");
     one["walks"].push_back(std::move(walk));
   }
   AddClosedForm(robot, scene, folder, tools, &one);

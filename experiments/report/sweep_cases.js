@@ -46,8 +46,8 @@ export const quantities = [
   { name: "bound", label: "longer than the lower bound [%]", needsBound: true,
     value: (cases, m, i) => (cases.tables[m].gap_lipm[i] === null ? null
       : 100 * cases.tables[m].gap_lipm[i]) },
-  { name: "instants", label: "instants evaluated",
-    value: (cases, m, i) => cases.tables[m].instants[i] },
+  { name: "effort", label: "effort",
+    value: (cases, m, i) => cases.tables[m].effort[i] },
   { name: "candidates", label: "candidates",
     value: (cases, m, i) => cases.tables[m].iterations[i] },
 ];
@@ -56,7 +56,7 @@ export class Cases {
   constructor(data) {
     Object.assign(this, { ids: data.ids, methods: data.methods, tables: data.tables,
       statuses: data.statuses, families: data.families, messages: data.messages,
-      meanings: data.meanings, place: data.place });
+      meanings: data.meanings, notRepeatable: data.not_repeatable, place: data.place });
     this.axes = data.axes.map((axis) => new Axis(axis));
     this.reports = new Set(data.reports);
     this.raw = this.methods.indexOf("raw");

@@ -9,6 +9,7 @@
 
 #include "experiments/report/report_page.h"
 #include "experiments/report/sweep_grid.h"
+#include "experiments/tables/ending_words.h"
 #include "experiments/tables/json_file.h"
 #include "opt/solvers/ending.h"
 #include "wpg/files/input_error.h"
@@ -52,7 +53,7 @@ struct Runs {
         duration(table.NumbersOrEmpty("duration_s")),
         margin(table.NumbersOrEmpty("worst_margin")),
         iterations(table.NumbersOrEmpty("iterations")),
-        instants(table.NumbersOrEmpty("instants")) {
+        effort(table.NumbersOrEmpty("effort")) {
     if (table.Has("gap_lipm")) gap_lipm = table.NumbersOrEmpty("gap_lipm");
   }
 
@@ -63,7 +64,7 @@ struct Runs {
   }
 
   std::vector<std::string> method, status, certified, margin_name, message;
-  std::vector<std::optional<double>> duration, margin, iterations, instants;
+  std::vector<std::optional<double>> duration, margin, iterations, effort;
   std::vector<std::optional<double>> gap_lipm;  // empty: no case knows a bound
 };
 
@@ -108,8 +109,8 @@ json CountsJson(const Runs& runs) {
 // A column a quantity for each method; null: no row, or no number.
 json EmptyTable(size_t cases, bool with_bound) {
   json table = json::object();
-  for (const char* column : {"status", "solved", "duration", "margin", "margin_of", "iterations",
-                             "instants", "message"}) {
+  for (const char* column :
+       {"status", "solved", "duration", "margin", "margin_of", "iterations", "effort", "message"}) {
     table[column] = json(std::vector<json>(cases));
   }
   if (with_bound) table["gap_lipm"] = json(std::vector<json>(cases));
@@ -143,7 +144,7 @@ void FillTables(const Runs& runs, const SweepGrid& grid, const Thinning& thinnin
       table["margin"][one] = NumberJson(runs.margin[row], 3);
       table["margin_of"][one] = families.Index(runs.margin_name[row]);
       table["iterations"][one] = NumberJson(runs.iterations[row], 6);
-      table["instants"][one] = NumberJson(runs.instants[row], 6);
+      table["effort"][one] = NumberJson(runs.effort[row], 6);
       if (!runs.gap_lipm.empty()) table["gap_lipm"][one] = NumberJson(runs.gap_lipm[row], 6);
       if (solved || message_bytes > kMostMessageBytes) continue;
       const size_t before = messages.texts().size();
@@ -173,8 +174,17 @@ json MeaningsJson() {
                    {"on_no_step_area", "A footstep is on an area that must not be stepped on."},
                    {"error", "A mistake of halfstep; the message says which."},
                    {"crashed", "The program that did the case died."}};
-  for (const opt::Ending ending : opt::kEndings) meanings[Name(ending)] = Meaning(ending);
+  for (const opt::Ending ending : opt::kEndings) meanings[Name(ending)] = FullMeaning(ending);
   return meanings;
+}
+
+// Of statuses of which that is to be said.
+json NotRepeatableJson() {
+  json words = json::object();
+  for (const opt::Ending ending : opt::kEndings) {
+    if (!NotRepeatable(ending, "").empty()) words[Name(ending)] = NotRepeatable(ending, "");
+  }
+  return words;
 }
 
 }  // namespace
@@ -202,6 +212,7 @@ std::string SweepReport(const fs::path& folder, const fs::path& page_path) {
       {"rows", runs.method.size()},
       {"counts", CountsJson(runs)},
       {"meanings", MeaningsJson()},
+      {"not_repeatable", NotRepeatableJson()},
       {"axes", AxesJson(grid, thinning)},
       {"constants", grid.constants},
       {"ids", json::array()},

@@ -29,18 +29,19 @@ export function summaryTable(parent, walks, families, endings) {
     const last = compared
       ? [walk.gap === null || walk.gap === undefined ? "–" : `${number(100 * walk.gap, 3)} %`]
       : [`${marginWords(s.worst_margin_name)} ${number(s.worst_margin, 3)} ${unit[s.worst_margin_name] ?? ""}`,
-         number(s.iterations), number(s.instants)];
-    const status = { text: s.status, title: endings[s.status], className: s.own ? "" : "no" };
+         number(s.iterations)];
+    const status = { text: s.not_repeatable ? `${s.status} (${s.not_repeatable})` : s.status,
+                     title: endings[s.status], className: s.own ? "" : "no" };
     return [walk.label, element("span", status), verdict(walk),
             seconds(s.duration_s), bar(s.duration_s / longest, "a"), s.speedup.toFixed(2),
-            ...(bounded ? [above] : []), ...last, number(s.wall_s, 3)];
+            ...(bounded ? [above] : []), ...last, number(s.effort, 3), number(s.wall_s, 3)];
   });
   parent.replaceChildren(
     element("h2", { text: "Methods" }),
     table(["method", "status", "for all t", "duration [s]", "", "speed-up",
            ...(bounded ? ["above the bound"] : []),
-           ...(compared ? ["gap to the best"] : ["worst margin", "candidates", "instants evaluated"]),
-           "run time [s]"], rows),
+           ...(compared ? ["gap to the best"] : ["worst margin", "candidates"]),
+           "effort", "run time [s]"], rows),
   );
 }
 

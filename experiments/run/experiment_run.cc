@@ -1,6 +1,7 @@
 #include "experiments/run/experiment_run.h"
 
 #include <algorithm>
+#include <ctime>
 #include <limits>
 
 #include "experiments/config/folder_name.h"
@@ -61,6 +62,11 @@ MethodRun PlannedRun(const WalkProblem& problem, const std::stop_token& stop, Wo
   run.result.ending = opt::Ending::kFailed;
   run.result.message = problem.evaluator().Describe((*missed)->demands.front().worst);
   return run;
+}
+
+// Of all threads of this process so far [s].
+double ProcessorSeconds() {
+  return static_cast<double>(std::clock()) / static_cast<double>(CLOCKS_PER_SEC);
 }
 
 bool TakesGiven(const ExperimentConfig& config) {
@@ -134,10 +140,16 @@ MethodRun ExperimentRun::RunMethod(const std::string& name, const RunHooks& hook
   SmoothingMonitor monitor({.progress = [&](double done) { hooks.progress(name, done); },
                             .stop = hooks.stop,
                             .stop_proof = hooks.stop_step,
-                            .workers = workers_});
+                            .workers = workers_,
+                            .on_incumbent =
+                                [&](const HomotopyParameters& walk) {
+                                  if (hooks.best) hooks.best(name, DurationOf(walk));
+                                }});
   MethodOptions options = config_.smoothing.options;
   options.Edit(GivenWalkGroup()) = given_;
+  const double begin = ProcessorSeconds();
   run.result = RunSmoother(config_.smoothing.known.Find(name), *problem_, options, monitor);
+  run.processor = ProcessorSeconds() - begin;
   const SuperposedWalk walk(experiment_->sequence, run.result.parameters);
   if (missed_ && run.result.ending == opt::Ending::kNotRun &&
       run.result.parameters == runs_.front().result.parameters) {

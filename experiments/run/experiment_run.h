@@ -21,9 +21,12 @@
 namespace halfstep {
 
 /// Callbacks and stop tokens of a run. `progress` is called with what is under way ("plan", a
-/// method) and the fraction of it that is done.
+/// method) and the fraction of it that is done, which of a search by a solver is the used part of
+/// its effort. A callback may come from another thread, never two at a time.
 struct RunHooks {
   std::function<void(const std::string& what, double done)> progress;  ///< may be empty
+  /// Called with the duration [s] of each walk that becomes a method's best; may be empty.
+  std::function<void(const std::string& method, double duration)> best = {};
   std::stop_token stop;  ///< ends the run at the next safe point; what is proved by then stays
   std::stop_token stop_step = {};  ///< requested later; also ends a proof under way
   /// Called when the planned motion is found feasible: from then on there is something to keep.

@@ -46,6 +46,14 @@ ordered_json Requested(const std::string& method, const SmoothingConfig& config)
   return JsonOf([&](Fields& fields) { smoother.DeclareRequest(fields, config.options); });
 }
 
+ordered_json WorkJson(const Work& work) {
+  return {{"instants", work.instants},
+          {"derivatives", work.derivatives},
+          {"intervals", work.intervals},
+          {"linear_algebra", work.linear_algebra},
+          {"effort", work.effort()}};
+}
+
 ordered_json MethodJson(const MethodRun& run, const SmoothingConfig& config) {
   return {{"name", run.method},
           {"requested", Requested(run.method, config)},
@@ -54,7 +62,9 @@ ordered_json MethodJson(const MethodRun& run, const SmoothingConfig& config) {
           {"judged_by", Name(run.result.evidence)},
           {"verdict", VerdictName(run.certified.answer.verdict)},
           {"duration_s", run.duration},
-          {"wall_s", run.result.wall}};
+          {"work", WorkJson(run.result.work)},
+          {"wall_s", run.result.wall},
+          {"processor_s", run.processor}};
 }
 
 }  // namespace

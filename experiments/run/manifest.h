@@ -10,7 +10,7 @@ namespace halfstep {
 
 /// Text of manifest.json: what made a run. Commit and library versions of this program, SHA-256 of
 /// the resolved config, seed, host, timings, and the program's objective, and per method what it
-/// was asked for, its status and message. The hashes of files follow by CompleteManifest.
+/// was asked for, its status, message and work. The hashes of files follow by CompleteManifest.
 std::string ManifestJson(const Experiment& experiment, const std::string& resolved_config,
                          const std::string& acceptance, const std::vector<MethodRun>& runs,
                          double total_wall);

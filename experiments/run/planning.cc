@@ -34,7 +34,10 @@ FootstepConfig ToConfig(const Footstep& footstep, const Place& place) {
 
 Termination StopOf(const PlannerConfig& config, const PlanningHooks& hooks) {
   std::vector<Termination> all = {OnRequest(hooks.stop), AfterNodes(config.max_nodes),
-                                  AtTime(SteadySeconds, SteadySeconds() + config.deadline)};
+                                  AfterEffort(config.effort)};
+  if (config.deadline > 0.0) {
+    all.push_back(AtTime(SteadySeconds, SteadySeconds() + config.deadline));
+  }
   all.push_back(config.unimproved_nodes == 0 ? AtFirstPlan()
                                              : WhenNotImprovedFor(config.unimproved_nodes));
   return AnyOf(std::move(all));
@@ -268,6 +271,7 @@ std::string PlanJson(const PlannedWalk& walk) {
       {"elements", plan.elements},
       {"nodes", plan.nodes},
       {"queries", plan.queries},
+      {"effort", plan.effort()},
       {"refusals", plan.refusals},
       {"half_steps", walk.half_steps.size},
       {"baked", walk.half_steps.cached.baked},

@@ -28,10 +28,13 @@ void ProgressBar::Update(double done) {
   constexpr int kWidth = 30;
   const int filled = static_cast<int>(done * kWidth);
   const double left = done > 0.0 ? elapsed.count() * (1.0 - done) / done : 0.0;
-  std::fputs(Formatted("\r\033[K%s [%.*s%*s] %3.0f %%, %.0f s left", label_.c_str(), filled,
-                       "##############################", kWidth - filled, "", 100.0 * done, left)
+  std::fputs(Formatted("\r\033[K%s [%.*s%*s] %3.0f %%, %.0f s left%s", label_.c_str(), filled,
+                       "##############################", kWidth - filled, "", 100.0 * done, left,
+                       best_.c_str())
                  .c_str(),
              stderr);
 }
+
+void ProgressBar::Best(double duration) { best_ = Formatted(", best walk %.3f s", duration); }
 
 }  // namespace halfstep

@@ -17,9 +17,12 @@ class ProgressBar {
 
   /// done ∈ [0, 1].
   void Update(double done);
+  /// The best walk so far lasts `duration` [s]: drawn from the next Update() on.
+  void Best(double duration);
 
  private:
   std::string label_;
+  std::string best_;  // in words
   bool enabled_;
   bool drawn_ = false;
   std::chrono::steady_clock::time_point begin_;

@@ -7,6 +7,7 @@
 
 #include "experiments/run/margin_words.h"
 #include "experiments/tables/answer_words.h"
+#include "experiments/tables/ending_words.h"
 #include "experiments/tables/not_covered_json.h"
 #include "smoothing/margins/not_covered_by.h"
 #include "smoothing/proof/sampled_feasibility.h"
@@ -130,6 +131,16 @@ std::string WorstCell(const MarginEvaluator& evaluator, const MethodRun& run) {
   return name + " " + Amount(worst.value, Unit(worst.family));
 }
 
+std::string_view NotRepeatable(const MethodRun& run) {
+  return halfstep::NotRepeatable(run.result.ending, run.result.message);
+}
+
+// At the end of a method's row: " (ended by the clock, not repeatable)".
+std::string ClockCell(const MethodRun& run) {
+  const std::string words(NotRepeatable(run));
+  return words.empty() ? "" : " (" + words + ")";
+}
+
 // Rows of a Pareto curve.
 std::string Curve(const MethodRun& run) {
   std::string text;
@@ -157,7 +168,8 @@ std::string RunTable(const Experiment& experiment, const WalkProblem& problem,
                      std::string(Name(run.result.ending)).c_str(),
                      std::string(VerdictName(run.certified.answer.verdict)).c_str(), run.duration,
                      runs.front().duration / run.duration, 100.0 * run.lowest_apex)
-        << ClearanceCell(evaluator, run) << " " << WorstCell(evaluator, run) << "\n";
+        << ClearanceCell(evaluator, run) << " " << WorstCell(evaluator, run) << ClockCell(run)
+        << "\n";
   }
   for (const MethodRun& run : runs) {
     if (!IsUndecided(run)) continue;
@@ -200,6 +212,8 @@ std::string RunJson(const Experiment& experiment, const WalkProblem& problem,
     json["methods"].push_back({{"method", run.method},
                                {"status", Name(run.result.ending)},
                                {"message", run.result.message},
+                               {"repeatable", NotRepeatable(run).empty()},
+                               {"effort", run.result.work.effort()},
                                {"judged_by", Name(run.result.evidence)},
                                {"verdict", VerdictName(run.certified.answer.verdict)},
                                {"duration_s", run.duration},

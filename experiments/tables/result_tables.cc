@@ -137,6 +137,7 @@ CsvFile IteratesCsv(const MethodRun& run) {
       {"iteration", kInteger, "", "from 1"},
       {"wall_s", kNumber, "s", "since the method began"},
       {"instants", kInteger, "", "instants evaluated so far"},
+      {"effort", kNumber, "", "work done so far; 1 is about a second of one core of 2026"},
       {"candidate_duration_s", kNumber, "s", "of the candidate's whole walk"},
       {"candidate_worst_margin", kNumber, "1",
        "(margin - demanded)/scale of the margin that refused the candidate; empty: feasible or "
@@ -149,8 +150,11 @@ CsvFile IteratesCsv(const MethodRun& run) {
   });
   int index = 0;
   for (const SmoothingIterate& iterate : run.result.iterates) {
-    csv.Cell(++index).Cell(iterate.wall).Cell(iterate.instants).Cell(iterate.candidate_duration);
-    csv.Cell(iterate.candidate_worst_margin).Cell(iterate.accepted).Cell(iterate.lambda);
+    csv.Cell(++index).Cell(iterate.wall).Cell(iterate.instants).Cell(iterate.effort);
+    csv.Cell(iterate.candidate_duration)
+        .Cell(iterate.candidate_worst_margin)
+        .Cell(iterate.accepted)
+        .Cell(iterate.lambda);
     csv.Cell(iterate.incumbent_duration).Cell(iterate.incumbent_slack).EndRow();
   }
   return csv.file();
@@ -170,6 +174,7 @@ CsvColumns SummaryColumns(bool with_bound) {
       {"worst_margin_name", kString, "", "its family"},
       {"iterations", kInteger, "", "rows of iterates.csv"},
       {"instants", kInteger, "", "instants evaluated by the method"},
+      {"effort", kNumber, "", "work of the method; 1 is about a second of one core of 2026"},
       {"collision_queries", kInteger, "", "pairs of bodies that were not culled"},
       {"wall_s", kNumber, "s", "time of the method; 0 for raw"},
       {"time_to_first_improvement_s", kNumber, "s",
@@ -207,6 +212,7 @@ void AddSummaryRow(const MarginEvaluator& evaluator, const std::vector<MethodRun
   next().Cell(Name(worst.family));
   next().Cell(static_cast<long>(result.iterates.size()));
   next().Cell(result.work.evaluated());
+  next().Cell(result.work.effort());
   next().Cell(result.collision_queries);
   next().Cell(result.wall);
   next().Cell(result.time_to_first_improvement);

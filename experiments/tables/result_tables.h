@@ -26,6 +26,7 @@ struct MethodRun {
 
   std::string method;        ///< the method's name
   SmoothingResult result;    ///< what it returned
+  double processor = 0.0;    ///< processor time of this process while it ran [s]
   double duration = 0.0;     ///< of the walk [s]
   double lowest_apex = 0.0;  ///< least of the steps' highest sole heights [m]
   MarginSet margins;         ///< smallest of each family, at the trajectory's instants

@@ -79,10 +79,11 @@ std::vector<IncumbentRecord> ReadIncumbents(const fs::path& folder) {
   const CsvTable table = ReadCsv(path.string());
   const std::vector<double> walls = NotNegative(table, "wall_s");
   const std::vector<double> instants = NotNegative(table, "instants");
+  const std::vector<double> efforts = NotNegative(table, "effort");
   const std::vector<double> durations = NotNegative(table, "incumbent_duration_s");
   std::vector<IncumbentRecord> incumbents;
   for (size_t i = 0; i < walls.size(); ++i) {
-    incumbents.push_back({walls[i], instants[i], durations[i]});
+    incumbents.push_back({walls[i], instants[i], efforts[i], durations[i]});
   }
   return incumbents;
 }
@@ -95,6 +96,7 @@ std::vector<MethodRecord> ReadSummary(const fs::path& run, const std::string& la
   const std::vector<double> durations = NotNegative(table, "duration_s"),
                             speedups = NotNegative(table, "speedup"), costs = table.Numbers("cost"),
                             instants = NotNegative(table, "instants"),
+                            efforts = NotNegative(table, "effort"),
                             queries = NotNegative(table, "collision_queries"),
                             walls = NotNegative(table, "wall_s");
   const std::vector<std::optional<double>> gaps = table.NumbersOrEmpty("gap_to_reference");
@@ -123,6 +125,7 @@ std::vector<MethodRecord> ReadSummary(const fs::path& run, const std::string& la
     method.gap_to_reference = gaps[i];
     if (!above.empty()) method.gap_lipm = above[i];
     method.instants = instants[i];
+    method.effort = efforts[i];
     method.collision_queries = queries[i];
     method.wall = walls[i];
     const fs::path folder = run / MethodFolder(names[i]);
@@ -154,6 +157,7 @@ void AddRequested(const json& manifest, const fs::path& path, const std::string&
     }
     const json& requested = Member(entries[i], "requested", path);
     method.requested = requested.dump();
+    method.message = TextOf(entries[i], "message", path);
     if (method.raw()) continue;
     method.variables = TextOf(requested, "variables", path);
     CheckWord(method.variables, "variables", path);

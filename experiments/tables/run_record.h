@@ -14,6 +14,7 @@ namespace halfstep {
 struct IncumbentRecord {
   double wall = 0.0;      ///< since the method began [s]
   double instants = 0.0;  ///< instants evaluated so far
+  double effort = 0.0;    ///< used so far (Work::effort)
   double duration = 0.0;  ///< of the incumbent [s]
 };
 
@@ -25,6 +26,7 @@ struct MethodRecord {
   std::string objective = "fastest";          ///< that the method pursued
   std::string requested;                      ///< its options, as JSON text
   opt::Ending ending = opt::Ending::kNotRun;  ///< how the method ended
+  std::string message;                        ///< a sentence on the ending
   bool certified = false;                     ///< whether its walk is proved for all t
   double duration = 0.0;                      ///< [s]
   double speedup = 0.0;  ///< duration of the planned walk over that of this one
@@ -33,8 +35,8 @@ struct MethodRecord {
   std::optional<double> gap_to_reference;
   std::optional<double>
       gap_lipm;  ///< above the lower bound; none where summary.csv does not say it
-  /// Work: instants at which margins were evaluated; queries of distances.
-  double instants = 0.0, collision_queries = 0.0;
+  /// Work: instants at which margins were evaluated; queries of distances; Work::effort.
+  double instants = 0.0, collision_queries = 0.0, effort = 0.0;
   double wall = 0.0;                        ///< [s]
   std::vector<IncumbentRecord> incumbents;  ///< in the order of time
 

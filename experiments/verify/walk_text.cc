@@ -85,22 +85,17 @@ std::vector<FootstepRow> ReadFootsteps(const std::string& path, const std::strin
 }
 
 std::vector<SummaryRow> ReadSummary(const std::string& path, const std::string& text) {
-  std::vector<std::string> columns = {"method",
-                                      "status",
-                                      "certified",
-                                      "duration_s",
-                                      "speedup",
-                                      "cost",
-                                      "worst_margin",
-                                      "worst_margin_name",
-                                      "iterations",
-                                      "instants",
-                                      "collision_queries",
-                                      "wall_s",
-                                      "time_to_first_improvement_s",
-                                      "gap_to_reference"};
-  const bool has_bound = text.substr(0, text.find('\n')).ends_with(",gap_lipm");
-  if (has_bound) columns.push_back("gap_lipm");
+  std::vector<std::string> columns = {"method",     "status",  "certified",    "duration_s",
+                                      "speedup",    "cost",    "worst_margin", "worst_margin_name",
+                                      "iterations", "instants"};
+  const std::string head = text.substr(0, text.find('\n'));
+  const bool has_effort = head.find(",instants,effort,") != std::string::npos;  // else it is older
+  if (has_effort) columns.emplace_back("effort");
+  const size_t queries = columns.size(), wall = queries + 1, first = wall + 1, gap = first + 1;
+  columns.insert(columns.end(), {"collision_queries", "wall_s", "time_to_first_improvement_s",
+                                 "gap_to_reference"});
+  const bool has_bound = head.ends_with(",gap_lipm");
+  if (has_bound) columns.emplace_back("gap_lipm");
   const CsvText csv(path, text, columns);
   std::vector<SummaryRow> rows;
   for (size_t i = 0; i < csv.size(); ++i) {
@@ -114,10 +109,10 @@ std::vector<SummaryRow> ReadSummary(const std::string& path, const std::string& 
                    .worst_margin = csv.Number(i, 6),
                    .iterations = static_cast<long>(csv.Number(i, 8)),
                    .gap_to_reference = {}};
-    for (size_t column : {9, 10, 11}) (void)csv.Number(i, column);
-    if (has_bound && !csv.Cell(i, 14).empty()) row.gap_lipm = csv.Number(i, 14);
-    if (!csv.Cell(i, 12).empty()) (void)csv.Number(i, 12);
-    if (!csv.Cell(i, 13).empty()) row.gap_to_reference = csv.Number(i, 13);
+    for (size_t column = 9; column <= wall; ++column) (void)csv.Number(i, column);
+    if (has_bound && !csv.Cell(i, gap + 1).empty()) row.gap_lipm = csv.Number(i, gap + 1);
+    if (!csv.Cell(i, first).empty()) (void)csv.Number(i, first);
+    if (!csv.Cell(i, gap).empty()) row.gap_to_reference = csv.Number(i, gap);
     rows.push_back(std::move(row));
   }
   return rows;

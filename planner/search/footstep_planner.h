@@ -66,7 +66,7 @@ enum class PlanStatus {
   kSolved,        ///< there is a plan
   kNoPlan,        ///< everything was searched, at the planner's resolution
   kStartBlocked,  ///< no foot can leave the floor
-  kBudget,        ///< time or nodes were used up before a plan was found
+  kBudget,        ///< nodes, effort or time were used up before a plan was found
   kInterrupted,   ///< stopped before a plan was found
   kRefused,       ///< there were plans, but `accepts` refused them
 };
@@ -86,7 +86,9 @@ struct [[nodiscard]] PlanResult {
   StopReason stop = StopReason::kGoOn;  ///< what ended it, when `exhausted` is false
   std::int64_t nodes = 0;    ///< states that a planner keeps or expands, over all its searches
   std::int64_t queries = 0;  ///< of half-steps: DownIsFree and UpIsFree
-  int refusals = 0;          ///< plans that `accepts` refused
+  /// Both in one unit (PlanProgress::effort).
+  double effort() const { return PlanProgress{.nodes = nodes, .queries = queries}.effort(); }
+  int refusals = 0;  ///< plans that `accepts` refused
   double time_to_first = std::numeric_limits<double>::quiet_NaN();  ///< plan, by the clock [s]
   double time = std::numeric_limits<double>::quiet_NaN();           ///< in all [s]
 };

@@ -57,6 +57,7 @@ void Solve(const PlanRequest& request, const StepGraph& graph, const StepPlan& p
   PlainStream sentence;
   sentence << plan.ks.size() << (plan.ks.size() == 1 ? " footstep" : " footsteps");
   if (result->stop == StopReason::kBudget) sentence << ", when the budget was used up";
+  if (result->stop == StopReason::kClock) sentence << ", ended by the clock, not repeatable";
   if (result->stop == StopReason::kInterrupted) sentence << ", when it was interrupted";
   result->sentence = sentence.str();
 }
@@ -78,6 +79,8 @@ void Explain(const SearchEnd& end, PlanResult* result) {
          result);
   } else if (result->stop == StopReason::kInterrupted) {
     Fail(PlanStatus::kInterrupted, "interrupted before a plan was found", result);
+  } else if (result->stop == StopReason::kClock) {
+    Fail(PlanStatus::kBudget, "ended by the clock before a plan was found, not repeatable", result);
   } else {
     Fail(PlanStatus::kBudget, "no plan was found before the budget was used up", result);
   }
@@ -87,6 +90,7 @@ void Explain(const SearchEnd& end, PlanResult* result) {
 
 bool PlanMonitor::Stop() {
   if (reason_ != StopReason::kGoOn) return true;
+  progress_.queries = graph_.queries();
   reason_ = request_.stop ? request_.stop(progress_) : AtFirstPlan()(progress_);
   return reason_ != StopReason::kGoOn;
 }
@@ -128,8 +132,8 @@ PlanResult PlanWith(const PlanRequest& request, const std::vector<int>& elements
     result.exhausted = true;
     return result;
   }
-  PlanMonitor monitor(request);
   StepGraph graph(request, elements);
+  PlanMonitor monitor(request, graph);
   std::vector<StepState> starts;
   const StepPlan* plan = nullptr;
   SearchEnd end;
@@ -146,13 +150,13 @@ PlanResult PlanWith(const PlanRequest& request, const std::vector<int>& elements
       if (monitor.plans().empty()) break;
       plan = FirstAccepted(request, monitor, &graph, &result.refusals);
       const bool hard =
-          monitor.reason() == StopReason::kBudget || monitor.reason() == StopReason::kInterrupted;
+          monitor.reason() != StopReason::kGoOn && monitor.reason() != StopReason::kEnough;
       if (plan != nullptr || hard || result.refusals >= request.max_refusals) break;
       monitor.StartOver();
     }
   }
   result.stop = monitor.reason();
-  result.nodes = monitor.nodes();
+  result.nodes = monitor.progress().nodes;
   result.queries = graph.queries();
   result.time_to_first = monitor.time_to_first();
   result.time = monitor.elapsed();

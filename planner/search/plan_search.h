@@ -19,8 +19,9 @@ struct StepPlan {
 /// Counts nodes, asks the termination and keeps the plans found, on behalf of one call of Plan.
 class PlanMonitor {
  public:
-  /// `request` is borrowed.
-  explicit PlanMonitor(const PlanRequest& request) : request_(request) {}
+  /// Both are borrowed; `graph` tells how many queries there were.
+  PlanMonitor(const PlanRequest& request, const StepGraph& graph)
+      : request_(request), graph_(graph) {}
 
   /// Whether to stop; true from then on. To be asked before every node.
   bool Stop();
@@ -31,7 +32,8 @@ class PlanMonitor {
   double best_cost() const { return progress_.cost; }  ///< of the best plan so far; ∞: none
   const std::vector<StepPlan>& plans() const { return plans_; }  ///< each cheaper than the last
   StopReason reason() const { return reason_; }                  ///< why Stop() returned true
-  std::int64_t nodes() const { return progress_.nodes; }         ///< counted so far
+  /// Counted so far; the queries of the last Stop().
+  const PlanProgress& progress() const { return progress_; }
   /// Until the first plan, by the clock [s]; NaN: no plan or no clock.
   double time_to_first() const { return time_to_first_; }
   double elapsed() const;  ///< NaN without a clock [s]
@@ -40,6 +42,7 @@ class PlanMonitor {
 
  private:
   const PlanRequest& request_;
+  const StepGraph& graph_;
   PlanProgress progress_;
   StopReason reason_ = StopReason::kGoOn;
   std::vector<StepPlan> plans_;

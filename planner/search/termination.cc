@@ -6,13 +6,19 @@ namespace halfstep {
 
 Termination AtTime(Clock clock, double end) {
   return [clock = std::move(clock), end](const PlanProgress&) {
-    return clock() >= end ? StopReason::kBudget : StopReason::kGoOn;
+    return clock() >= end ? StopReason::kClock : StopReason::kGoOn;
   };
 }
 
 Termination AfterNodes(std::int64_t nodes) {
   return [nodes](const PlanProgress& progress) {
     return progress.nodes >= nodes ? StopReason::kBudget : StopReason::kGoOn;
+  };
+}
+
+Termination AfterEffort(double effort) {
+  return [effort](const PlanProgress& progress) {
+    return progress.effort() >= effort ? StopReason::kBudget : StopReason::kGoOn;
   };
 }
 

@@ -11,17 +11,27 @@ namespace halfstep {
 /// How far a planner has come.
 struct PlanProgress {
   std::int64_t nodes = 0;                                 ///< so far
+  std::int64_t queries = 0;                               ///< of half-steps, so far
   double cost = std::numeric_limits<double>::infinity();  ///< of the best plan; ∞: none yet
   std::int64_t nodes_since_improvement = 0;  ///< since a plan got better; 0 while there is none
   /// Whether there is one.
   bool has_plan() const { return cost < std::numeric_limits<double>::infinity(); }
+
+  /// Nodes and queries in one unit, that of Work::effort: 1 is about a second of one core of 2026.
+  /// Source: planner/README.md, "Termination".
+  double effort() const {
+    return 1e-6 * (kNode * static_cast<double>(nodes) + kQuery * static_cast<double>(queries));
+  }
+  // What one of each takes [µs].
+  static constexpr double kNode = 15.0, kQuery = 1.0;
 };
 
 /// Why a planner shall stop.
 enum class StopReason {
   kGoOn,
   kEnough,       ///< the plan is good enough
-  kBudget,       ///< time or nodes are used up
+  kBudget,       ///< nodes or effort are used up
+  kClock,        ///< a time has come: where the search was then is not the same twice
   kInterrupted,  ///< stopped on request
 };
 
@@ -32,10 +42,12 @@ using Termination = std::function<StopReason(const PlanProgress&)>;
 /// their own.
 using Clock = std::function<double()>;
 
-/// kBudget when `clock` shows `end` [s] or more.
+/// kClock when `clock` shows `end` [s] or more.
 Termination AtTime(Clock clock, double end);
 /// kBudget after that many nodes; 0: at once.
 Termination AfterNodes(std::int64_t nodes);
+/// kBudget when PlanProgress::effort is that or more.
+Termination AfterEffort(double effort);
 /// kEnough when there is a plan.
 Termination AtFirstPlan();
 /// kEnough when there is a plan and that many nodes did not improve it.

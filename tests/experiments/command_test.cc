@@ -94,11 +94,11 @@ TEST(RunCommand, WritesEveryFileAndColumn) {
       "multiplier_s,duration_before_s,duration_after_s,height_scale_before,"
       "height_scale_after");
   EXPECT_EQ(Columns(run / "dichotomy/iterates.csv"),
-            "iteration,wall_s,instants,candidate_duration_s,candidate_worst_margin,accepted,"
-            "lambda,incumbent_duration_s,incumbent_worst_margin");
+            "iteration,wall_s,instants,effort,candidate_duration_s,candidate_worst_margin,"
+            "accepted,lambda,incumbent_duration_s,incumbent_worst_margin");
   EXPECT_EQ(Columns(run / "summary.csv"),
             "method,status,certified,duration_s,speedup,cost,worst_margin,worst_margin_name,"
-            "iterations,instants,collision_queries,wall_s,time_to_first_improvement_s,"
+            "iterations,instants,effort,collision_queries,wall_s,time_to_first_improvement_s,"
             "gap_to_reference");
   EXPECT_EQ(Columns(run / "footsteps.csv"),
             "footstep,foot,x_m,y_m,yaw_rad,via_height_m,duration_s");
@@ -111,6 +111,24 @@ TEST(RunCommand, WritesEveryFileAndColumn) {
   for (const auto& [library, version] : manifest["libraries"].items()) {
     EXPECT_NE(version, "") << library;
   }
+  EXPECT_TRUE(manifest["libraries"].contains("sleef"));
+  // `instants` of tables are all kinds at which margins were evaluated.
+  const ParsedCsv summary(ReadText(run / "summary.csv"));
+  for (size_t row = 0; row < 3; ++row) {
+    const nlohmann::json& method = manifest["methods"][row];
+    const nlohmann::json& work = method["work"];
+    EXPECT_EQ(work["instants"].get<long>() + work["derivatives"].get<long>() +
+                  work["intervals"].get<long>(),
+              std::lround(summary.Number(row, "instants")));
+    EXPECT_EQ(work["effort"].get<double>(), summary.Number(row, "effort"));
+    EXPECT_GT(work["effort"].get<double>(), 0.0);
+    EXPECT_EQ(method["processor_s"].get<double>() > 0.0, row > 0) << "raw searches nothing";
+  }
+  const ParsedCsv iterates(ReadText(run / "dichotomy/iterates.csv"));
+  for (size_t row = 1; row < iterates.size(); ++row) {
+    EXPECT_GE(iterates.Number(row, "effort"), iterates.Number(row - 1, "effort"));
+  }
+  EXPECT_LE(iterates.Number(iterates.size() - 1, "effort"), summary.Number(1, "effort"));
 }
 
 TEST(RunCommand, RowsComeAtAFixedRateAndEndWithTheWalk) {

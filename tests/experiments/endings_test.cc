@@ -4,10 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <stop_token>
 
 #include "experiments/commands/commands.h"
+#include "experiments/tables/ending_words.h"
 #include "opt/solvers/ending.h"
 #include "smoothing/methods/methods.h"
+#include "smoothing/methods/smoothing_monitor.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/run_check.h"
 #include "tests/temporary_folder.h"
@@ -131,6 +134,49 @@ TEST_F(Endings, AnOldWordIsRefusedWithTheValidOnes) {
     EXPECT_THAT(outcome.err, HasSubstr("run/summary.csv")) << command.front();
     EXPECT_THAT(outcome.err, HasSubstr(said)) << command.front();
   }
+}
+
+// What a method says of its ending is told by the words of the monitor, whatever its status.
+TEST(EndingsByTheClock, AreToldByEndingOrMessage) {
+  const SmoothingMonitor late({.deadline = 0.0});
+  std::stop_source source;
+  const SmoothingMonitor stopped({.stop = source.get_token()});
+  source.request_stop();
+  const SmoothingMonitor used({.effort = 0.0});
+  for (const opt::Ending ending : opt::kEndings) {
+    const bool by_clock = ending == opt::Ending::kDeadline;
+    const bool from_outside = ending == opt::Ending::kInterrupted;
+    EXPECT_EQ(NotRepeatable(ending, "").empty(), !by_clock && !from_outside) << Name(ending);
+    if (by_clock || from_outside) continue;
+    EXPECT_EQ(NotRepeatable(ending, late.StopReason()), "ended by the clock, not repeatable");
+    EXPECT_EQ(NotRepeatable(ending, stopped.StopReason()), "stopped from outside, not repeatable");
+    EXPECT_EQ(NotRepeatable(ending, used.StopReason()), "");
+  }
+}
+
+TEST(EndingsByTheClock, AreMarkedWhereverARowIsShown) {
+  constexpr char kMark[] = "ended by the clock, not repeatable";
+  const TemporaryFolder place;
+  const std::vector<std::string> arguments = {
+      "run",   ShippedConfig("fig3_two_half_steps"),
+      "--set", "smoothing.methods=[dichotomy, halfstep/sqp]",
+      "--set", "smoothing.optimizer.deadline_s=1e-9"};  // over before the first solve
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), arguments.begin(), arguments.end());
+    return Halfstep(place.path(), more);
+  };
+  const Outcome run = with({"--out", "run"});
+  EXPECT_THAT(run.out, testing::ContainsRegex(std::string("\nhalfstep/sqp [^\n]*\\(") + kMark));
+  EXPECT_THAT(run.out, Not(testing::ContainsRegex(std::string("\ndichotomy [^\n]*\\(") + kMark)));
+  const auto json = nlohmann::json::parse(with({"--out", "again", "--json"}).out);
+  EXPECT_EQ(json["methods"][1]["repeatable"], true);
+  EXPECT_EQ(json["methods"][2]["repeatable"], false);
+  const Outcome compared = Halfstep(place.path(), {"compare", "run"});
+  EXPECT_THAT(compared.out,
+              testing::ContainsRegex(std::string("\nhalfstep/sqp [^\n]*\\(") + kMark));
+  if (!HasReport()) return;
+  EXPECT_THAT(ReadText(place / "run/report.html"),
+              HasSubstr(std::string("\"not_repeatable\":\"") + kMark));
 }
 
 TEST(EndingsAmongObstaclesThatMove, AMethodThatCannotRunSaysSo) {

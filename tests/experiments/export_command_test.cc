@@ -177,7 +177,7 @@ TEST_F(ExportCommandTest, OmplLogKeepsItsCounts) {
     if (planner == "dichotomy") {
       at += count("progress properties for each run");
       at += count("runs");
-      EXPECT_TRUE(lines.at(at - 1).starts_with("0,4,0,;"));
+      EXPECT_TRUE(lines.at(at - 1).starts_with("0,4,0,0,;"));
     }
     EXPECT_EQ(lines.at(at++), ".");
   }

@@ -21,7 +21,7 @@ CONFIGS = ROOT / "experiments/configs"
 HIDDEN = {"GLIBC_TUNABLES": "glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2,-AVX"}
 SIN = ("import math, random; random.seed(1); "
        "print(hash(tuple(math.sin(random.uniform(0, 7)) for _ in range(100000))))")
-TIME = re.compile(r"wall_s|time_to_|^written$|^host$|sha256|^bytes$")  # columns and keys
+TIME = re.compile(r"wall_s|processor_s|time_to_|^written$|^host$|sha256|^bytes$")  # columns and keys
 COMMANDS = (
     ["plan", f"{CONFIGS}/plan_bar_8cm.yaml", "--set", "planner.name=rrt", "--set",
      "swept_volumes.cell_m=0.05", "--set", "swept_volumes.displacement_m=0.05"],

@@ -135,11 +135,11 @@ TemporaryFolder* SweepCommandTest::place_ = nullptr;
 
 TEST_F(SweepCommandTest, OneRowACaseAndMethodWithItsKeysAndFailures) {
   const ParsedCsv runs(ReadText(Folder("reference") / "runs.csv"));
-  EXPECT_THAT(
-      runs.header(),
-      ElementsAre("case", "footsteps.0.x_m", "half_step.via_height_m", "method", "status",
-                  "certified", "duration_s", "speedup", "cost", "worst_margin", "worst_margin_name",
-                  "iterations", "instants", "collision_queries", "gap_to_reference", "message"));
+  EXPECT_THAT(runs.header(),
+              ElementsAre("case", "footsteps.0.x_m", "half_step.via_height_m", "method", "status",
+                          "certified", "duration_s", "speedup", "cost", "worst_margin",
+                          "worst_margin_name", "iterations", "instants", "effort",
+                          "collision_queries", "gap_to_reference", "message"));
   ASSERT_EQ(runs.size(), 10u);
   EXPECT_EQ(runs.Text(0, "method"), "raw");
   EXPECT_EQ(runs.Text(3, "method"), "dichotomy");

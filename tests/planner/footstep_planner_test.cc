@@ -79,6 +79,14 @@ TEST(Termination, TheFirstReasonCounts) {
   EXPECT_EQ(stop({}), StopReason::kInterrupted);
 }
 
+// Nodes that never come, because every half-step is blocked, cost queries.
+TEST(Termination, EffortCountsNodesAndQueries) {
+  const Termination stop = AfterEffort(1.0);
+  EXPECT_EQ(stop({.nodes = 60000, .queries = 90000}), StopReason::kGoOn);
+  EXPECT_EQ(stop({.nodes = 60000, .queries = 100000}), StopReason::kBudget);
+  EXPECT_EQ(stop({.queries = 1000000}), StopReason::kBudget);
+}
+
 TEST(StepReach, NoSequenceOfElementsLeadsFarther) {
   const StepSet set = PlausibleSet();
   const std::vector<int> all = AllElements(set);
@@ -331,7 +339,7 @@ TEST(Shortcut, EveryHalfStepOfAShortenedPlanIsFree) {
     const Side support = Opposite(first.footsteps[0].side);
     PlanRequest more = RequestTo({2.5, 0.0, 0.4}, set, query);
     more.stop = AfterNodes(2000);
-    PlanMonitor monitor(more);
+    PlanMonitor monitor(more, graph);
     monitor.Offer({.start = {request.start[static_cast<size_t>(Index(support))], support},
                    .ks = first.elements,
                    .cost = first.cost});

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -196,6 +197,8 @@ TEST_P(PlannerConformance, StopsWhenTheClockSaysSo) {
   request.stop = AtTime(request.clock, 106.0);
   const PlanResult result = bench.Plan(request);
   EXPECT_EQ(result.status, PlanStatus::kBudget);
+  EXPECT_EQ(result.stop, StopReason::kClock);
+  EXPECT_THAT(result.sentence, testing::HasSubstr("by the clock"));
   EXPECT_GT(result.time, 0.0);
   EXPECT_TRUE(std::isnan(result.time_to_first));
 }

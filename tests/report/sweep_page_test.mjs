@@ -45,7 +45,7 @@ function makeLargeSweep() {
   writeFileSync(join(place, "large/manifest.json"),
                 JSON.stringify({ ...manifest, name: "large", keys: ["seed", "half_step.duration_s"] }));
   const rows = ["case,seed,half_step.duration_s,method,status,certified,duration_s,worst_margin," +
-    "worst_margin_name,iterations,instants,message"];
+    "worst_margin_name,iterations,effort,message"];
   for (let i = 0; i < 100000; ++i) {
     const id = `${String(i + 1).padStart(4, "0")}-${((i * 2654435761) % 2 ** 32).toString(16).padStart(8, "0")}`;
     const keys = `${id},${Math.floor(i / 100)},${1 + (i % 100) / 100}`;
@@ -101,7 +101,7 @@ async function testCharts(browser) {
   assert.ok((await texts(browser, "#boxes text")).includes("dichotomy: 4 of 8 (4 failed)"));
   assert.equal((await texts(browser, "#profile option")).length, 2);
   await browser.run("const s = document.querySelector('#profile select'); s.value = '1'; s.dispatchEvent(new Event('change'))");
-  assert.match((await texts(browser, "#profile svg"))[0], /factor of the least instants evaluated/);
+  assert.match((await texts(browser, "#profile svg"))[0], /factor of the least effort/);
   assert.equal((await texts(browser, "#counts tbody tr")).length, 6);
 
   const svg = await browser.run(`const made = [];

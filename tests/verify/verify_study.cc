@@ -334,8 +334,9 @@ std::vector<StudyMutation> StudyMutations() {
   EveryColumn("footsteps.csv", "footsteps.csv", 3, {}, "", &list);
   EveryColumn("summary.csv", "summary.csv", 2, kFreeOfSummary, kNotClaimed, &list, /*first=*/2);
   EveryColumn("iterates.csv", "dichotomy/iterates.csv", 1,
-              {"iteration", "wall_s", "instants", "candidate_duration_s", "candidate_worst_margin",
-               "accepted", "lambda", "incumbent_duration_s", "incumbent_worst_margin"},
+              {"iteration", "wall_s", "instants", "effort", "candidate_duration_s",
+               "candidate_worst_margin", "accepted", "lambda", "incumbent_duration_s",
+               "incumbent_worst_margin"},
               kHow, &list);
   EveryMember("manifest.json", "manifest.json", HarmlessInManifest, &list);
   EveryKey(&list);

@@ -41,7 +41,8 @@ const char* HarmlessInManifest(const std::string& pointer) {
                             "/acceptance", "/host", "/wall_s", "/libraries"}) {
     if (pointer.starts_with(begin)) return kHow;
   }
-  for (const char* part : {"/requested", "/message", "/judged_by", "/wall_s"}) {
+  for (const char* part :
+       {"/requested", "/message", "/judged_by", "/work", "/wall_s", "/processor_s"}) {
     if (pointer.starts_with("/methods/") && pointer.find(part) != std::string::npos) return kHow;
   }
   // Of raw, whose row verify is not asked about.

@@ -11,9 +11,9 @@ inline constexpr char kHow[] = "how the method went, not what came of it";
 /// Columns that are about how a method went, or that no statement is about.
 inline const std::set<std::string> kFreeOfOverlaps = {
     "limited_by", "limited_by_family", "limited_by_scale", "price_s", "multiplier_s"};
-inline const std::set<std::string> kFreeOfSummary = {"worst_margin", "worst_margin_name",
-                                                     "instants",     "collision_queries",
-                                                     "wall_s",       "time_to_first_improvement_s"};
+inline const std::set<std::string> kFreeOfSummary = {
+    "worst_margin", "worst_margin_name",          "instants", "effort", "collision_queries",
+    "wall_s",       "time_to_first_improvement_s"};
 
 /// Why another value of a member of manifest.json or certificate.json is harmless; "": it is not.
 /// `pointer` as in "/methods/0/status".

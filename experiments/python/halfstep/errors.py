@@ -21,7 +21,8 @@ class InputError(ValueError):
 
 
 class SolveStopped(RuntimeError):
-    """Says to a solver or smoother of yours that it is to end: by its deadline, a limit or Ctrl-C.
+    """Says to a solver or smoother of yours that it is to end: by its effort, a limit, its
+    deadline or Ctrl-C.
 
     Raised by the evaluations of the problem that it was given. There is no need to catch it: the
     best point that was evaluated, or the incumbent, is kept.

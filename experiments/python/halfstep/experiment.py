@@ -180,9 +180,10 @@ class Experiment:
 
         ``options`` are the keys of the method's group in the config: of ``smoothing.dichotomy``,
         ``smoothing.optimizer`` (``heights=True``, ``durations=True``, ``program="safest"`` ...),
-        ``smoothing.horizon`` or ``smoothing.own``. ``deadline`` [s] ends the search, with what was
-        found. Ctrl-C ends it, and raises KeyboardInterrupt. An exception in a function of yours is
-        raised here.
+        ``smoothing.horizon`` or ``smoothing.own``. A search by a solver ends after its ``effort``
+        (5 by default), always with the same walk; ``deadline`` [s] is an emergency stop by the
+        clock, which keeps what was found. Ctrl-C ends it, and raises KeyboardInterrupt. An
+        exception in a function of yours is raised here.
         """
         if not isinstance(method, str):
             raise TypeError(f"method: {type(method).__name__} (valid: a method's name)")

@@ -24,12 +24,13 @@ class _Task:
 
     @property
     def stopped(self) -> bool:
-        """Whether your function is to return: Ctrl-C came or the deadline passed."""
+        """Whether your function is to return: Ctrl-C came, its effort is used or the deadline
+        passed."""
         return self._task.stopped
 
     @property
     def remaining(self) -> float:
-        """Until the deadline [s]."""
+        """Until the deadline [s]; inf: there is none."""
         return self._task.remaining
 
 
@@ -142,8 +143,8 @@ def register_smoother(name: str, function: Callable[[SmoothingProblem], Any],
 
     ``function(problem)`` proposes walks; what it returns is not looked at. A loop that proposes
     nothing has to look at ``problem.stopped``, or Ctrl-C waits for it. The families that it
-    moves, and its deadline, are up to ``smoothing.optimizer``, if it uses ``problem.program()``.
-    It is called in another thread than that of ``smooth``.
+    moves, if it uses ``problem.program()``, its effort and its deadline are up to
+    ``smoothing.optimizer``. It is called in another thread than that of ``smooth``.
 
     ``options`` are keys of your own, under ``smoothing.own.NAME`` in configs, which are read as
     strictly as all others: name to default, True or False, a number or text, or to a dict with

@@ -40,6 +40,10 @@ class Result:
         """The time that it took [s]."""
         self.instants: int = found["instants"]
         """How many instants of walks it evaluated."""
+        self.effort: float = found["effort"]
+        """Its work; 1 is about a second of one core of 2026."""
+        self.repeatable: bool = found["repeatable"]
+        """Whether the same call gives the same walk: neither the clock nor Ctrl-C ended it."""
         self._iterates = found["iterates"]
         self._overlaps = found["overlaps"]
         self._pareto = found["pareto"]
