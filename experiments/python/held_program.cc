@@ -140,8 +140,9 @@ Refinement HeldProgram::Refine(const Eigen::VectorXd& x, const std::stop_token& 
   const bool safest = program_.options().kind == ProgramKind::kSafest;
   const SuperposedWalk walk(walk_problem.sequence(), ToParameters(x));
   Refinement result;
-  result.least_slack =
+  const std::vector<double> least =
       program_.watched().Focus(walk, kWatchEvery, safest ? std::max(0.0, x.tail(1)[0]) : 0.0);
+  result.least_slack = *std::ranges::min_element(least);
   MarginEvaluator::Scratch scratch = walk_problem.evaluator().MakeScratch();
   scratch.stop = stop;
   StretchProofs proofs(walk_problem.test(), walk_problem.sequence().size());

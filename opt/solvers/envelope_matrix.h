@@ -13,11 +13,12 @@ class EnvelopeMatrix {
   /// `positions[v]`: the row of variable v (n); `first[p]` ≤ p: where row p begins (n).
   EnvelopeMatrix(std::vector<int> positions, std::vector<int> first);
 
-  void SetZero();
+  void SetZero();  ///< all entries
   /// The entries of row p from column `first[p]` on: entry (p, q) is Row(p)[q].
   double* Row(int p) { return entries_.data() + offset_[static_cast<size_t>(p)]; }
   /// Adds to the diagonal, by variable (n).
   void AddDiagonal(const Eigen::ArrayXd& diagonal);
+  /// The row of a variable.
   int PositionOf(int variable) const { return positions_[static_cast<size_t>(variable)]; }
 
   /// Puts the Cholesky factor in the place of the matrix. False: it is not positive definite.

@@ -22,8 +22,8 @@ struct PlanProgress {
   double effort() const {
     return 1e-6 * (kNode * static_cast<double>(nodes) + kQuery * static_cast<double>(queries));
   }
-  // What one of each takes [µs].
-  static constexpr double kNode = 15.0, kQuery = 1.0;
+  static constexpr double kNode = 15.0;  ///< what a node takes [µs]
+  static constexpr double kQuery = 1.0;  ///< what a query takes [µs]
 };
 
 /// Why a planner shall stop.

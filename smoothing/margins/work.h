@@ -21,6 +21,7 @@ struct Work {
   /// Of all kinds at which margins were evaluated.
   long evaluated() const { return instants + derivatives + intervals; }
 
+  /// Adds each kind.
   Work& operator+=(const Work& other) {
     instants += other.instants;
     derivatives += other.derivatives;
@@ -28,6 +29,7 @@ struct Work {
     linear_algebra += other.linear_algebra;
     return *this;
   }
+  /// What was done after `b`, of a.
   friend Work operator-(Work a, const Work& b) {
     a.instants -= b.instants;
     a.derivatives -= b.derivatives;
@@ -37,8 +39,10 @@ struct Work {
   }
   friend bool operator==(const Work&, const Work&) = default;
 
-  // What one of each kind takes [µs].
-  static constexpr double kInstant = 13.0, kDerivative = 46.0, kInterval = 16.0, kEntry = 1.5e-3;
+  static constexpr double kInstant = 13.0;     ///< what an instant takes [µs]
+  static constexpr double kDerivative = 46.0;  ///< what one with derivatives takes [µs]
+  static constexpr double kInterval = 16.0;    ///< what an interval takes [µs]
+  static constexpr double kEntry = 1.5e-3;     ///< what a step of linear algebra takes [µs]
 };
 
 }  // namespace halfstep

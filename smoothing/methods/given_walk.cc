@@ -9,10 +9,6 @@ SmoothingResult TakeGivenWalk(const WalkProblem& problem,
                               SmoothingMonitor& monitor) {
   const SuperposedWalk walk(problem.sequence(), given.value_or(problem.Start()));
   monitor.Begin(problem, walk.parameters());
-  if (monitor.stopped()) {
-    return monitor.Finish(opt::Ending::kNotRun,
-                          monitor.StopReason() + " before the given walk was looked at");
-  }
   Feasibility answer;
   const std::optional<AcceptedWalk> accepted = monitor.Accept(walk.parameters(), &answer);
   if (answer.stopped) {

@@ -4,7 +4,7 @@ namespace halfstep {
 
 OptionGroup<HorizonOptions> HorizonGroup() {
   return {"horizon",
-          "windows of `halfstep/horizon`; its program, variables and deadline are those of "
+          "windows of `halfstep/horizon`; its program, variables and effort are those of "
           "`optimizer`"};
 }
 

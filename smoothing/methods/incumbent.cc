@@ -1,6 +1,7 @@
 #include "smoothing/methods/incumbent.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <numeric>
@@ -9,6 +10,15 @@
 #include "smoothing/walk/superposed_walk.h"
 
 namespace halfstep {
+
+namespace {
+
+// A half-step that was refused for the m-th time is longer by kLonger·2^m of its T. One at which
+// samples are violated begins as one that was refused kHeld times.
+constexpr double kLonger = 0.01;
+constexpr int kHeld = 3, kMostTimes = 5;
+
+}  // namespace
 
 Incumbent::Incumbent(const HalfStepSequence& sequence, Rules rules, HomotopyParameters start,
                      double cost, MarginEvaluator::Scratch* scratch)
@@ -28,7 +38,8 @@ HomotopyParameters Incumbent::Between(const HomotopyParameters& candidate,
       const auto [first, last] = Traits(family).half_steps(static_cast<int>(k));
       const auto end = std::min(lambda.end(), lambda.begin() + last + 1);
       const double part = *std::min_element(lambda.begin() + first, end);
-      values[k] += part * (to[k] - values[k]);
+      // a + (b - a) is not always b, and b may be where the range ends.
+      values[k] = part == 1.0 ? to[k] : values[k] + part * (to[k] - values[k]);
     }
   }
   ClampOverlaps(parameters_, &point);
@@ -75,14 +86,28 @@ HomotopyParameters Incumbent::Beside(const HomotopyParameters& candidate,
   return Between(candidate, AllBut(held, candidate.durations.size()));
 }
 
+HomotopyParameters Incumbent::Lengthened(const HomotopyParameters& candidate,
+                                         const std::vector<int>& times) const {
+  HomotopyParameters point = candidate;
+  for (size_t k = 0; k < rules_.longest.size(); ++k) {
+    if (times[k] == 0) continue;
+    double& T = point.durations[k];
+    T = std::max(T, std::min(rules_.longest[k], T * (1.0 + std::ldexp(kLonger, times[k]))));
+  }
+  return point;
+}
+
 double Incumbent::Toward(const HomotopyParameters& candidate, int attempts,
                          const std::vector<bool>& held) {
   refusals_.clear();
   const size_t n = candidate.durations.size();
-  std::vector<double> lambda = AllBut(held, n);
+  const bool lengthens = !rules_.longest.empty();
+  std::vector<double> lambda = AllBut(lengthens ? std::vector<bool>() : held, n);
+  std::vector<int> times(n, 0);
+  for (size_t k = 0; k < held.size(); ++k) times[k] = held[k] ? kHeld : 0;
   std::vector<Margin> refusals;
   for (int attempt = 0; attempt < attempts; ++attempt) {
-    if (Replace(Between(candidate, lambda), &refusals)) {
+    if (Replace(Between(Lengthened(candidate, times), lambda), &refusals)) {
       return std::accumulate(lambda.begin(), lambda.end(), 0.0) / static_cast<double>(n);
     }
     if (refusals.empty()) break;  // it would not cost less
@@ -92,21 +117,34 @@ double Incumbent::Toward(const HomotopyParameters& candidate, int attempts,
       continue;
     }
     const std::vector<double> before = lambda;
+    bool longer = false;
     for (const Margin& refusal : refusals) {
-      const size_t k = static_cast<size_t>(refusal.at.half_step);
-      Hold(k > 0 ? k - 1 : 0, k + 1, &lambda);
+      const size_t k = static_cast<size_t>(refusal.at.half_step), first = k > 0 ? k - 1 : 0;
+      if (lengthens && times[k] < kMostTimes) {
+        for (size_t i = first; i <= k; ++i) ++times[i];
+        longer = true;
+      } else {
+        Hold(first, k + 1, &lambda);
+      }
     }
-    if (lambda == before) break;  // what is refused does not move
+    if (!longer && lambda == before) break;  // what is refused does not move
   }
   return 0.0;
 }
 
 Incumbent::Rules DemandedRules(const OverlapProgram& program, StretchProofs* proofs) {
+  const ParameterTable& table = program.variables().table();
+  std::vector<double> longest;
+  for (const ParameterRow& row : table.rows()) {
+    if (row.parameter.family == ParameterFamily::kDuration) longest.push_back(row.upper);
+  }
   return {.cost = [&program](const HomotopyParameters& p) { return program.Cost(p); },
           .prove =
               [proofs](const SuperposedWalk& walk, double, MarginEvaluator::Scratch* scratch) {
                 return proofs->Refusals(walk, scratch);
-              }};
+              },
+          .longest = program.options().parameters.durations ? std::move(longest)
+                                                            : std::vector<double>()};
 }
 
 Incumbent::Rules SafestRules(const OverlapProgram& program, const FeasibilityTest& test,

@@ -11,9 +11,9 @@
 namespace halfstep {
 
 /// Keeps the best point of the homotopy that was proved, the incumbent. A candidate replaces it
-/// only if it costs less and that was proved. Where one is refused, the steps around the refusal
-/// stay as they are in the incumbent, and the rest is tried again. So whatever proposes candidates
-/// may stop at any moment.
+/// only if it costs less and that was proved. Where one is refused, the half-steps around the
+/// refusal become longer; where that does not help, their steps stay as they are in the incumbent.
+/// So whatever proposes candidates may stop at any moment.
 class Incumbent {
  public:
   /// What the incumbent is compared by, and where it may move.
@@ -30,6 +30,8 @@ class Incumbent {
     double improvement = 1e-9;
     /// Whether a refusal holds back only the parameters near it; if not, it holds back all alike.
     bool local = true;
+    /// What half-steps may last at most where they are refused (n) [s]; empty: as the candidate's.
+    std::vector<double> longest = {};
   };
 
   /// Precondition: `start` was proved to cost `cost`. `sequence` and `scratch` are borrowed.
@@ -37,8 +39,8 @@ class Incumbent {
             MarginEvaluator::Scratch* scratch);
 
   /// Moves the incumbent to a candidate where that is proved, trying at most `attempts` ≥ 1 points.
-  /// Steps with half-steps that are `held` stay as they are from the first point on. Returns how
-  /// far it moved, ∈ [0, 1], as a mean over the half-steps.
+  /// Half-steps that are `held` are longer, or stay as they are, from the first point on. Returns
+  /// how far it moved, ∈ [0, 1], as a mean over the half-steps.
   double Toward(const HomotopyParameters& candidate, int attempts,
                 const std::vector<bool>& held = {});
 
@@ -57,6 +59,8 @@ class Incumbent {
  private:
   // Takes the point if it costs less and is proved; `refusals`: why it is not proved.
   bool Replace(const HomotopyParameters& point, std::vector<Margin>* refusals);
+  HomotopyParameters Lengthened(const HomotopyParameters& candidate,
+                                const std::vector<int>& times) const;
   HomotopyParameters Between(const HomotopyParameters& candidate,
                              const std::vector<double>& lambda) const;
 

@@ -54,7 +54,13 @@ class Optimization {
                        .rounds = options_.rounds,
                        .tuning = options_.tuning};
     const double effort = (1.0 - options_.tuning.last_part) * monitor_.effort();
+    const AcceptedWalk begun = *monitor_.accepted();
+    const double cost = monitor_.cost();
     end_.own = RunStages(problem_, StagesOf(), start, range, effort, monitor_, &end_);
+    if (end_.own && !Safest()) {  // whose walks were proved whole
+      KeepWhatHolds(problem_, begun, cost, monitor_);
+      end_.own = monitor_.incumbent() != begun.parameters();
+    }
     return Conclude(limit);
   }
 
@@ -73,7 +79,7 @@ class Optimization {
     std::vector<SearchStage> stages;
     const bool by_windows = options_.windows && !Safest() && solver_->traits().many_rows &&
                             problem_.scene().rests() &&
-                            problem_.sequence().size() > 2 * tuning.window;
+                            problem_.sequence().size() > tuning.long_walk;
     if (by_windows) {
       stages.push_back(
           {.window = tuning.window, .step = tuning.step, .rounds = tuning.window_rounds});
@@ -92,7 +98,10 @@ class Optimization {
     } else {
       dichotomy.start = start;
     }
-    SmoothingMonitor within(monitor_.Part(0.9, 1.0));
+    MonitorOptions part = monitor_.Part(0.9, 1.0);
+    // A solver that took more than its part of the effort leaves the baseline its own.
+    part.effort = std::max(part.effort, options_.tuning.last_part * monitor_.effort());
+    SmoothingMonitor within(part);
     const SmoothingResult found = Dichotomy(problem_, dichotomy, within);
     const double effort = monitor_.work().effort();
     monitor_.Count(found);

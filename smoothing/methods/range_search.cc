@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "smoothing/methods/search_pace.h"
+#include "wpg/files/number_text.h"
 #include "wpg/nth.h"
 
 namespace halfstep {
@@ -15,7 +16,7 @@ namespace {
 // Iterations of the solver in a repair.
 constexpr int kRepairIterations = 2;
 constexpr int kViolatedRounds = 4;
-constexpr double kDearer = 10.0;
+constexpr double kDearer = 10.0, kHardlyLess = 1.5;
 // A solver that moves no variable by more stands still.
 constexpr double kStill = 1e-6;
 
@@ -148,11 +149,11 @@ bool RangeSearch::Solve(Eigen::VectorXd* x, bool repair) {
   // Rows are nearly linear, and so is every cost but the roughness.
   if (options_.program.kind != ProgramKind::kSmooth) options.solver_options = traits.nearly_linear;
   if (dearer_ > 1.0 && traits.many_rows) {
-    options.solver_options["penalty"] = std::to_string(2.0 * dearer_);
+    options.solver_options["penalty"] = ShortestText(2.0 * dearer_);
     if (!repair) options.solver_options["radius"] = "0.05";
   }
   if (repair) {
-    options.solver_options["radius"] = std::to_string(options_.tuning.repair_region);
+    options.solver_options["radius"] = ShortestText(options_.tuning.repair_region);
   } else {
     options.warm_start = solution_.warm_start;
   }
@@ -171,9 +172,10 @@ bool RangeSearch::Solve(Eigen::VectorXd* x, bool repair) {
   monitor_.Count({.linear_algebra = solution.linear_algebra}, 0);
   end_.Note(solution);
   if (solution.ending == opt::Ending::kInvalidInput || solution.x.size() != x->size()) return false;
-  // Cheap and nearly feasible is a better place to go on from than the best feasible one.
-  const bool near =
-      solution.final_x.size() == x->size() && solution.final_violation < options_.tuning.hopeless;
+  // Cheap and nearly feasible is a better place to go on from than the best feasible one, and where
+  // there is none, than one that is violated hardly less.
+  const double far = std::max(options_.tuning.hopeless, kHardlyLess * solution.max_violation);
+  const bool near = solution.final_x.size() == x->size() && solution.final_violation < far;
   *x = near ? solution.final_x : solution.x;
   end_cost_ = near ? solution.final_cost : solution.cost;
   end_violation_ = near ? solution.final_violation : solution.max_violation;
@@ -189,11 +191,13 @@ bool RangeSearch::Try(const Eigen::VectorXd& x) {
   const std::vector<double> least =
       program_.watched().Focus(walk, options_.tuning.look_period, level);
   held_.clear();
-  for (const double slack : least) held_.push_back(slack < level + options_.tuning.promising);
+  // What is refused of a safest walk holds all of it back.
+  for (const double slack : least) {
+    held_.push_back(!Safest() && slack < options_.tuning.promising);
+  }
   const auto first = held_.begin() + range_.proved_first,
              last = held_.begin() + range_.proved_last + 1;
-  const bool some =
-      Safest() ? std::find(first, last, true) == last : std::find(first, last, false) != last;
+  const bool some = std::find(first, last, false) != last;
   const bool tried = some && end_violation_ <= options_.tuning.hopeless;
   const double lambda = tried ? path_.Toward(end, options_.tuning.attempts, held_) : 0.0;
   SmoothingResult& result = monitor_.result();

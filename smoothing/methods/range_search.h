@@ -22,7 +22,7 @@ struct RangeOptions {
   int iterations = 3;                         ///< of the solver in a round, at most
   int rounds = 40;                            ///< from a start, at most
   bool first_proof = false;  ///< rounds end with the first end that is proved as it is
-  SearchTuning tuning;
+  SearchTuning tuning;       ///< its constants
 };
 
 /// Called with every new point of a range's part that was proved, its cost and what that is less

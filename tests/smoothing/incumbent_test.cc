@@ -120,6 +120,47 @@ TEST_F(IncumbentTest, StepsThatAreHeldStayFromTheFirstPointOn) {
   EXPECT_EQ(test.questions.size(), 1u);
 }
 
+// The half-steps of the refusal last longer until they are proved, and all else moves at once.
+TEST_F(IncumbentTest, HalfStepsThatAreRefusedLastLongerAndTheRestMoves) {
+  const HalfStepSequence sequence = WalkDraw(80).Sequence(4);
+  const HomotopyParameters planned = PlannedMotion(sequence);
+  HomotopyParameters candidate = Overlapped(sequence, 0.5);
+  for (double& T : candidate.durations) T *= 0.6;
+  const double least = 1.05 * candidate.durations[0];
+  const FakeFeasibility test(evaluator_, [least](const HomotopyParameters& p) {
+    return p.durations[0] >= least ? Verdict::kFeasible : Verdict::kViolated;
+  });
+  for (const double longest : {planned.durations[0], candidate.durations[0]}) {
+    Incumbent path(sequence,
+                   {.cost = [](const HomotopyParameters& p) { return DurationOf(p); },
+                    .prove = Prove(test),
+                    .longest = std::vector<double>(8, longest)},
+                   planned, DurationOf(planned), &scratch_);
+    EXPECT_GT(path.Toward(candidate, 8), 0.0);
+    EXPECT_EQ(path.refusals().size(), 1u) << "of the candidate itself";
+    for (size_t k = 2; k < 8; ++k) {
+      EXPECT_EQ(path.parameters().durations[k], candidate.durations[k]) << k;
+    }
+    EXPECT_GE(path.parameters().durations[0], least);
+    // Where it may not last longer, its step stays as it is.
+    const bool longer = longest > candidate.durations[0];
+    EXPECT_EQ(path.parameters().durations[0] == planned.durations[0], !longer);
+    if (!longer) continue;
+    EXPECT_LT(path.parameters().durations[0], 1.1 * candidate.durations[0]);
+  }
+}
+
+// Regression: a + (b − a) may be a little less than b, where b ends a range.
+TEST_F(IncumbentTest, WhatMovesIsTheCandidateToTheLastBit) {
+  HomotopyParameters candidate = Overlapped(sequence_, 0.5);
+  for (double& ramp : candidate.of(ParameterFamily::kZmpBumpRamp)) ramp = 0.1;
+  const FakeFeasibility test = UpTo(100);
+  Incumbent path = Path(test, planned_);
+  EXPECT_EQ(path.Toward(candidate, 1), 1.0);
+  EXPECT_EQ(path.parameters(), candidate);
+  EXPECT_EQ(path.Beside(planned_, {}), planned_);
+}
+
 TEST_F(IncumbentTest, WhereWhatIsRefusedDoesNotMoveItIsLeftAlone) {
   const HomotopyParameters candidate = Overlapped(sequence_, 0.9);
   const FakeFeasibility test(evaluator_, [&](const HomotopyParameters& p) {
