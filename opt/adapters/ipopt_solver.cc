@@ -20,7 +20,7 @@ namespace {
 
 // Of each Jacobian: Ipopt factorizes, once an iteration, a symmetric matrix that holds it and
 // fills.
-constexpr int kIpoptPasses = 10;
+constexpr int kIpoptPasses = 350;
 constexpr double kIpoptInfinity = 2e19;  // beyond nlp_upper_bound_inf = 1e19
 
 /// MUMPS is not thread-safe: one solve at a time in the whole process.

@@ -12,10 +12,6 @@
 namespace halfstep::opt {
 namespace {
 
-// Of each Jacobian: NLopt's dual problems and dense least squares go over it many times. Methods
-// without derivatives count nothing.
-constexpr int kNloptPasses = 100;
-
 struct Destroy {
   void operator()(nlopt_opt opt) const { nlopt_destroy(opt); }
 };
@@ -202,7 +198,7 @@ SolverEnd Translate(nlopt_result result, nlopt_opt opt, Eigen::VectorXd x) {
 }
 
 SolverEnd Run(const NloptMethod& method, SolveMonitor& monitor, const Eigen::VectorXd& start) {
-  monitor.EstimateAlgebra(kNloptPasses);
+  monitor.EstimateAlgebra(method.passes);
   const Problem& problem = monitor.problem();
   const auto n = static_cast<unsigned>(problem.num_variables());
   Settings settings(method, &monitor);

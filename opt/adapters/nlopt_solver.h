@@ -18,6 +18,9 @@ struct NloptMethod {
   bool equalities;         ///< takes rows with l = u
   bool finite_bounds;      ///< requires finite bounds on every variable
   int least_variables;     ///< fails below this number of variables
+  /// What it is taken to do with a Jacobian (SolveMonitor::EstimateAlgebra): its dual problems and
+  /// least squares go over it many times. Methods without derivatives count nothing.
+  int passes;
 };
 
 /// All that the list of solvers offers.

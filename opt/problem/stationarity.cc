@@ -63,7 +63,10 @@ Stationarity EstimateMultipliers(const Problem& problem, const Eigen::VectorXd& 
 
   const double scale = std::max(1.0, gradient.lpNorm<Eigen::Infinity>());
   Eigen::VectorXd rest = gradient;
+  long entries = 0;
+  for (const Active& a : active) entries += static_cast<long>(a.entries.size());
   for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
+    result.multiplications += 2 * entries;
     double change = 0.0;
     for (Active& a : active) {
       double slope = 0.0;

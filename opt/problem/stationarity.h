@@ -15,6 +15,7 @@ struct Stationarity {
   /// the row is not active. λ_i is minus the change of cost for one unit more of that bound.
   Eigen::VectorXd multipliers;
   Eigen::VectorXd bound_multipliers;  ///< ν (n), likewise for the bounds of the variables
+  long multiplications = 0;           ///< that it took
 };
 
 /// Minimizes ‖∇f + Jᵀλ + ν‖² over the multipliers of active rows and bounds, those nearer than

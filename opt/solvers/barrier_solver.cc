@@ -15,6 +15,16 @@
 namespace halfstep::opt {
 namespace {
 
+// Multiplications of a factorization with this factor, or of AᵀA for Aᵀ, about.
+long SquaredColumns(const Eigen::SparseMatrix<double>& matrix) {
+  long sum = 0;
+  for (Eigen::Index k = 0; k < matrix.outerSize(); ++k) {
+    const long entries = matrix.col(k).nonZeros();
+    sum += entries * entries;
+  }
+  return sum;
+}
+
 using Eigen::VectorXd;
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
@@ -158,7 +168,8 @@ class Barrier {
     identity.setIdentity();
     K += SparseMatrix(identity * diagonal.asDiagonal());
     const Eigen::SimplicialLDLT<SparseMatrix> factors(K);
-    monitor_.CountAlgebra(factors.matrixL().nestedExpression().nonZeros());
+    const SparseMatrix& factor = factors.matrixL().nestedExpression();
+    monitor_.CountAlgebra(SquaredColumns(factor) + SquaredColumns(jacobian_.transpose()));
     if (factors.info() != Eigen::Success) return {};
     VectorXd d = factors.solve(-g);
     if (!hessian_.empty()) {

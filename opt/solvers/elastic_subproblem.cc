@@ -136,7 +136,7 @@ class InteriorPoint {
     K_.SetZero();
     A_.AddGram(z_ / stiffness_, &K_);
     K_.AddDiagonal(y_lower_ / to_lower_ + y_upper_ / to_upper_ + p_.hessian.sigma());
-    algebra_ += K_.nonzeros();
+    algebra_ += A_.multiplications() + K_.multiplications();
     if (!K_.Factorize()) return false;
     if (p_.hessian.empty()) return true;
     KU_.resize(d_.size(), p_.hessian.U().cols());

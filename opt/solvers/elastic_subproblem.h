@@ -30,7 +30,7 @@ struct ElasticStep {
   Eigen::VectorXd d;      ///< (n), within its bounds
   Eigen::VectorXd duals;  ///< of the rows (m), each in [0, ν_i]
   double gap;             ///< what its cost exceeds the least one by at most, up to rounding
-  long linear_algebra;    ///< non-zeros of the factors, summed over the iterations
+  long linear_algebra;    ///< multiplications of factorizations, as Solution::linear_algebra
 };
 
 /// Solves it, without the rows that no step within the bounds can violate, by a primal-dual

@@ -19,6 +19,11 @@ EnvelopeMatrix::EnvelopeMatrix(std::vector<int> positions, std::vector<int> firs
     size += static_cast<Eigen::Index>(p) - first_[p] + 1;
   }
   entries_.setZero(size);
+  for (size_t i = 0; i < first_.size(); ++i) {
+    for (size_t j = static_cast<size_t>(first_[i]); j <= i; ++j) {
+      multiplications_ += static_cast<long>(j) - std::max(first_[i], first_[j]) + 1;
+    }
+  }
 }
 
 void EnvelopeMatrix::SetZero() { entries_.setZero(); }

@@ -25,8 +25,8 @@ class EnvelopeMatrix {
   bool Factorize();
   /// The inverse times `right` (n), by variable, after Factorize.
   Eigen::VectorXd Solve(const Eigen::VectorXd& right) const;
-  /// Of the factor: what Factorize and Solve go through.
-  long nonzeros() const { return static_cast<long>(entries_.size()); }
+  /// What Factorize takes.
+  long multiplications() const { return multiplications_; }
 
  private:
   const double* Row(int p) const { return entries_.data() + offset_[static_cast<size_t>(p)]; }
@@ -34,6 +34,7 @@ class EnvelopeMatrix {
   std::vector<int> positions_, first_;
   std::vector<Eigen::Index> offset_;  // of each row's (absent) entry of column 0
   Eigen::VectorXd entries_;
+  long multiplications_ = 0;
 };
 
 }  // namespace halfstep::opt

@@ -55,6 +55,7 @@ RowBlocks::RowBlocks(const SparseMatrix& A, const std::vector<int>& rows) : n_(A
   for (Block& block : blocks_) {
     block.first = static_cast<Index>(order_.size());
     order_.insert(order_.end(), block.rows.begin(), block.rows.end());
+    multiplications_ += Cost(block.columns.size(), block.rows.size());
     widest_ = std::max(widest_, kTile * Tiles(block.columns.size()));
     block.entries.setZero(kTile * Tiles(block.columns.size()),
                           static_cast<Index>(block.rows.size()));

@@ -23,6 +23,7 @@ class RowBlocks {
   void Times(const Eigen::VectorXd& d, Eigen::ArrayXd* Ad) const;           ///< A d (k)
   void AddTransposed(const Eigen::ArrayXd& z, Eigen::VectorXd* sum) const;  ///< sum (n) += Aᵀz
   void AddGram(const Eigen::ArrayXd& theta, EnvelopeMatrix* K) const;       ///< K += AᵀΘA
+  long multiplications() const { return multiplications_; }  ///< what AddGram takes, about
 
  private:
   struct Block {
@@ -44,6 +45,7 @@ class RowBlocks {
   std::vector<Block> blocks_;
   std::vector<int> order_;
   Eigen::Index widest_ = 0;  // rows of entries of a block, at most
+  long multiplications_ = 0;
 };
 
 }  // namespace halfstep::opt

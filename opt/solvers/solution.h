@@ -44,9 +44,9 @@ struct Solution {
   long gradient_evaluations = 0;    ///< as cost_evaluations
   long constraint_evaluations = 0;  ///< as cost_evaluations
   long jacobian_evaluations = 0;    ///< as cost_evaluations
-  /// Work of the solver's linear algebra during this call: non-zeros of the factor (one triangle)
-  /// times factorizations, summed. The same in every run, as far as the library repeats itself. Of
-  /// libraries, whose factors are not seen: an estimate (SolveMonitor::EstimateAlgebra).
+  /// Work of the solver's linear algebra during this call: multiplications of its factorizations,
+  /// about. The same in every run, as far as the library repeats itself. Of libraries, whose
+  /// factors are not seen: an estimate (SolveMonitor::EstimateAlgebra).
   long linear_algebra = 0;
   double wall = 0.0;                            ///< [s]
   std::vector<HistoryEntry> history;            ///< one entry an iteration

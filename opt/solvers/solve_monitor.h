@@ -46,8 +46,8 @@ class SolveMonitor {
   /// Returns false once a limit, the stop token, on_iterate or an exception has asked to stop.
   bool MayGoOn();
 
-  /// Adds to Solution::linear_algebra, after each factorization: the non-zeros of its factor.
-  void CountAlgebra(long nonzeros) { counted_.linear_algebra += nonzeros; }
+  /// Adds to Solution::linear_algebra, after each factorization.
+  void CountAlgebra(long multiplications) { counted_.linear_algebra += multiplications; }
   /// From now on each evaluation of the Jacobian adds `passes` times its declared non-zeros: what a
   /// library does with a Jacobian is not seen, and is taken for so many passes over it.
   void EstimateAlgebra(int passes) { passes_ = passes; }

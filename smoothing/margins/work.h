@@ -8,7 +8,7 @@ struct Work {
   long instants = 0;        ///< of walks that were evaluated without derivatives
   long derivatives = 0;     ///< of walks that were evaluated with derivatives
   long intervals = 0;       ///< that proofs bounded
-  long linear_algebra = 0;  ///< opt::Solution::linear_algebra: entries of factors, times their use
+  long linear_algebra = 0;  ///< opt::Solution::linear_algebra: multiplications
 
   /// All of it in one unit: 1 is about a second of one core of 2026. The weights are what each kind
   /// took there for HRP-2. Source: smoothing/README.md, "Effort".
@@ -16,7 +16,7 @@ struct Work {
     return 1e-6 * (kInstant * static_cast<double>(instants) +
                    kDerivative * static_cast<double>(derivatives) +
                    kInterval * static_cast<double>(intervals) +
-                   kEntry * static_cast<double>(linear_algebra));
+                   kMultiplication * static_cast<double>(linear_algebra));
   }
   /// Of all kinds at which margins were evaluated.
   long evaluated() const { return instants + derivatives + intervals; }
@@ -39,10 +39,10 @@ struct Work {
   }
   friend bool operator==(const Work&, const Work&) = default;
 
-  static constexpr double kInstant = 13.0;     ///< what an instant takes [µs]
-  static constexpr double kDerivative = 46.0;  ///< what one with derivatives takes [µs]
-  static constexpr double kInterval = 16.0;    ///< what an interval takes [µs]
-  static constexpr double kEntry = 1.5e-3;     ///< what a step of linear algebra takes [µs]
+  static constexpr double kInstant = 7.0;            ///< what an instant takes [µs]
+  static constexpr double kDerivative = 14.0;        ///< what one with derivatives takes [µs]
+  static constexpr double kInterval = 27.0;          ///< what an interval takes [µs]
+  static constexpr double kMultiplication = 0.8e-3;  ///< what a multiplication takes [µs]
 };
 
 }  // namespace halfstep

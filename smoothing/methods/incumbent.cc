@@ -143,8 +143,8 @@ Incumbent::Rules DemandedRules(const OverlapProgram& program, StretchProofs* pro
               [proofs](const SuperposedWalk& walk, double, MarginEvaluator::Scratch* scratch) {
                 return proofs->Refusals(walk, scratch);
               },
-          .longest = program.options().parameters.durations ? std::move(longest)
-                                                            : std::vector<double>()};
+          .longest =
+              program.options().parameters.durations ? std::move(longest) : std::vector<double>()};
 }
 
 Incumbent::Rules SafestRules(const OverlapProgram& program, const FeasibilityTest& test,

@@ -159,7 +159,9 @@ class Optimization {
     program.watched().SetWork(&monitor_.scratch()->work);
     program.watched().Focus(SuperposedWalk(problem_.sequence(), monitor_.incumbent()),
                             options_.tuning.look_period, 0.0);
-    halfstep::AddMultipliers(program, monitor_.incumbent(), &monitor_.result().junctions);
+    monitor_.Count({.linear_algebra = halfstep::AddMultipliers(program, monitor_.incumbent(),
+                                                               &monitor_.result().junctions)},
+                   0);
   }
 
   SmoothingResult CutOff() {

@@ -48,7 +48,7 @@ Eigen::VectorXd ReachOfRows(const opt::Problem& problem, const std::vector<doubl
 
 }  // namespace
 
-void AddMultipliers(const OverlapProgram& program, const HomotopyParameters& parameters,
+long AddMultipliers(const OverlapProgram& program, const HomotopyParameters& parameters,
                     std::vector<JunctionResult>* junctions) {
   const opt::Problem problem = program.MakeProblem();
   const Eigen::VectorXd x = program.ToVariables(parameters);
@@ -81,6 +81,7 @@ void AddMultipliers(const OverlapProgram& program, const HomotopyParameters& par
     const bool determined = (moves || !active) && sum <= DurationOf(parameters);
     junction.multiplier = determined ? sum : std::numeric_limits<double>::quiet_NaN();
   }
+  return at.multiplications;
 }
 
 }  // namespace halfstep

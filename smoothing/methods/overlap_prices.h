@@ -22,7 +22,8 @@ void AddPrices(const SuperposedWalk& walk, const MarginEvaluator& evaluator,
 /// half-steps on both sides. Rows nearly active count. It is not a number where it is not
 /// determined: within the bounds of the variables none of these rows changes, to first order, by as
 /// much as counts as nearly active, or the multipliers promise more time than the walk lasts.
-void AddMultipliers(const OverlapProgram& program, const HomotopyParameters& parameters,
+/// Returns the multiplications that it took, for Work::linear_algebra.
+long AddMultipliers(const OverlapProgram& program, const HomotopyParameters& parameters,
                     std::vector<JunctionResult>* junctions);
 
 }  // namespace halfstep
