@@ -133,6 +133,22 @@ make_certificate() {  # What a proof rests on along one walk; bounds against the
   keep certificate/tightness.csv
 }
 
+make_typical_forms() {  # What steps of fast walks look like, by class.
+  "$halfstep" draw walks --count 60 --seed 1 --out "$work/walks"
+  runs=""
+  for walk in "$work"/walks/walk_??.yaml "$configs"/bar_5cm.yaml "$configs"/bar_8cm.yaml \
+      "$configs"/bar_10cm.yaml "$configs"/island.yaml "$configs"/cylinders.yaml \
+      "$configs"/clutter.yaml "$configs"/crossing.yaml "$configs"/fence.yaml \
+      "$configs"/fig4_raw_sequence.yaml; do
+    name=$(basename "$walk" .yaml)
+    "$halfstep" run "$walk" --quiet --out "$work/forms/$name" \
+      --set 'smoothing.methods=[halfstep/sqp]' --set output.period_s=0.1
+    runs="$runs $work/forms/$name"
+  done
+  python3 notebooks-data/typical_forms.py $runs >"$work/table"
+  keep drawn_walks/typical_forms.csv
+}
+
 make_drawn_walks() {  # Sixty drawn walks. The bound is D/(1 + gap_lipm) of any method's walk.
   "$halfstep" draw walks --count 60 --seed 1 --out "$work/walks"
   "$halfstep" sweep "$work/walks/walks.yaml" --quiet --out "$work/walks_sweep"

@@ -71,6 +71,15 @@ void Hold(size_t first, size_t last, std::vector<double>* lambda) {
   }
 }
 
+// They go half of the way that they went, or not at all.
+void HoldBack(size_t first, size_t last, std::vector<double>* lambda) {
+  constexpr double kLeastPart = 0.3;
+  for (size_t i = first / 2 * 2; i < std::min(lambda->size(), last / 2 * 2 + 2); ++i) {
+    double& part = (*lambda)[i];
+    part = part > kLeastPart ? 0.5 * part : 0.0;
+  }
+}
+
 std::vector<double> AllBut(const std::vector<bool>& held, size_t n) {
   std::vector<double> lambda(n, 1.0);
   for (size_t i = 0; i < held.size(); ++i) {
@@ -124,7 +133,7 @@ double Incumbent::Toward(const HomotopyParameters& candidate, int attempts,
         for (size_t i = first; i <= k; ++i) ++times[i];
         longer = true;
       } else {
-        Hold(first, k + 1, &lambda);
+        HoldBack(first, k + 1, &lambda);
       }
     }
     if (!longer && lambda == before) break;  // what is refused does not move
@@ -133,11 +142,11 @@ double Incumbent::Toward(const HomotopyParameters& candidate, int attempts,
 }
 
 Incumbent::Rules DemandedRules(const OverlapProgram& program, StretchProofs* proofs) {
-  const ParameterTable& table = program.variables().table();
   std::vector<double> longest;
-  for (const ParameterRow& row : table.rows()) {
+  for (const ParameterRow& row : program.variables().table().rows()) {
     if (row.parameter.family == ParameterFamily::kDuration) longest.push_back(row.upper);
   }
+  if (!program.options().parameters.durations) longest.clear();
   return {.cost = [&program](const HomotopyParameters& p) { return program.Cost(p); },
           .prove =
               [proofs](const SuperposedWalk& walk, double, MarginEvaluator::Scratch* scratch) {

@@ -56,7 +56,7 @@ class Optimization {
     const double effort = (1.0 - options_.tuning.last_part) * monitor_.effort();
     const AcceptedWalk begun = *monitor_.accepted();
     const double cost = monitor_.cost();
-    end_.own = RunStages(problem_, StagesOf(), start, range, effort, monitor_, &end_);
+    end_.own = RunStages(problem_, StagesOf(start), start, range, effort, monitor_, &end_);
     if (end_.own && !Safest()) {  // whose walks were proved whole
       KeepWhatHolds(problem_, begun, cost, monitor_);
       end_.own = monitor_.incumbent() != begun.parameters();
@@ -73,7 +73,7 @@ class Optimization {
     return Safest() ? DurationOf(walk) : CostOf(problem_.sequence(), walk, options_.program);
   }
 
-  std::vector<SearchStage> StagesOf() const {
+  std::vector<SearchStage> StagesOf(SearchStart start) const {
     if (options_.only) return {*options_.only};
     const SearchTuning& tuning = options_.tuning;
     std::vector<SearchStage> stages;
@@ -83,6 +83,10 @@ class Optimization {
     if (by_windows) {
       stages.push_back(
           {.window = tuning.window, .step = tuning.step, .rounds = tuning.window_rounds});
+    }
+    if (start == SearchStart::kTypical && !by_windows &&
+        options_.program.parameters.support_points) {
+      stages.push_back({.rounds = options_.rounds, .resting = true});
     }
     stages.push_back({.rounds = options_.rounds});
     return stages;

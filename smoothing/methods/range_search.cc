@@ -16,6 +16,7 @@ namespace {
 // Iterations of the solver in a repair.
 constexpr int kRepairIterations = 2;
 constexpr int kViolatedRounds = 4;
+constexpr double kNearlyAll = 0.9;
 constexpr double kDearer = 10.0, kHardlyLess = 1.5;
 // A solver that moves no variable by more stands still.
 constexpr double kStill = 1e-6;
@@ -55,6 +56,15 @@ void AdaptRows(bool tried, const std::vector<Margin>& refusals, WatchedInstants*
 }
 
 }  // namespace
+
+ProgramOptions Resting(ProgramOptions program, const WalkProblem& problem) {
+  const MarginLimits& limits = problem.limits();
+  const double inside =
+      limits.demanded_of(MarginFamily::kZmp) + limits.demanded_of(MarginFamily::kZmpRobot);
+  double& most = program.parameters.bound("most_support_point_m");
+  most = std::min(most, 0.5 * problem.robot().sole_size.y() - inside);
+  return program;
+}
 
 WalkWindow WholeRange(const WalkProblem& problem, const HomotopyParameters& at) {
   return {.begin = 0,
@@ -129,7 +139,7 @@ bool RangeSearch::From(const HomotopyParameters& start, double more, double effo
       solution_.warm_start = nullptr;
     }
     monitor_.ShowEffort();
-    if (options_.first_proof && tried && path_.refusals().empty()) break;
+    if (options_.first_proof && moved_ >= kNearlyAll) break;
   }
   end_.exhausted = end_.exhausted || pace.exhausted();
   return true;
@@ -200,6 +210,7 @@ bool RangeSearch::Try(const Eigen::VectorXd& x) {
   const bool some = std::find(first, last, false) != last;
   const bool tried = some && end_violation_ <= options_.tuning.hopeless;
   const double lambda = tried ? path_.Toward(end, options_.tuning.attempts, held_) : 0.0;
+  moved_ = lambda;
   SmoothingResult& result = monitor_.result();
   result.raw_end_feasible = tried && lambda == 1.0;
   if (!tried || !path_.refusals().empty()) ++result.raw_infeasible;

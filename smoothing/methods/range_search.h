@@ -21,7 +21,7 @@ struct RangeOptions {
   double duration_limit = 0.0;                ///< of `safest` [s]
   int iterations = 3;                         ///< of the solver in a round, at most
   int rounds = 40;                            ///< from a start, at most
-  bool first_proof = false;  ///< rounds end with the first end that is proved as it is
+  bool first_proof = false;  ///< rounds end with the first end of which nearly all is proved
   SearchTuning tuning;       ///< its constants
 };
 
@@ -72,10 +72,15 @@ class RangeSearch {
   opt::Solution solution_;                       // of the last round
   double end_cost_ = 0.0, end_violation_ = 0.0;  // where it ended
   std::vector<bool> held_;  // half-steps at whose last end samples are violated
+  double moved_ = 0.0;      // how far the incumbent went to the last end
   int violated_ = 0;        // rounds in a row whose ends were violated
   double dearer_ = 1.0;     // how much more violations cost
   double until_ = 0.0;      // effort of the monitor
 };
+
+/// The same program, with support points on which the robot could rest, so that slower half-steps
+/// are feasible where faster ones are refused.
+ProgramOptions Resting(ProgramOptions program, const WalkProblem& problem);
 
 /// The whole walk of `at` as a range.
 WalkWindow WholeRange(const WalkProblem& problem, const HomotopyParameters& at);

@@ -38,6 +38,7 @@ class Stages {
   bool Run(const SearchStage& stage) {
     RangeOptions options = options_;
     options.rounds = stage.rounds;
+    if (stage.resting) return Rest(options);
     return stage.window == 0 ? Whole(options) : Windows(stage, options);
   }
 
@@ -45,28 +46,48 @@ class Stages {
   int size() const { return problem_.sequence().size(); }
 
   HomotopyParameters Typical(const WalkWindow& range, const TypicalForm* form) const {
-    return TypicalStart(range.problem.sequence(),
-                        range.problem.Parameters(options_.program.parameters), problem_.robot(),
-                        form);
+    return TypicalStart(range.problem, options_.program.parameters, monitor_.scratch(), form);
+  }
+
+  RangeGain Adopting() {
+    return [this](const HomotopyParameters& walk, double cost, double) {
+      at_ = walk;
+      monitor_.Adopt(AcceptedInParts::Walk(walk), cost, DurationOf(walk));
+    };
+  }
+
+  std::vector<HomotopyParameters> Starts(const WalkWindow& range) const {
+    return {Typical(range, nullptr), Typical(range, &TypicalForms().back()), problem_.Start()};
+  }
+
+  bool Rest(RangeOptions options) {
+    options.first_proof = true;
+    options.program = Resting(options.program, problem_);
+    const WalkWindow range = WholeRange(problem_, at_);
+    RangeSearch search(range, options, monitor_, Adopting(), &end_);
+    if (!search.moves()) return true;
+    for (const HomotopyParameters& start : Starts(range)) {
+      if (!search.From(start, 1.0, effort_)) return false;
+      rested_ = search.path().accepted() > 0;
+      if (rested_) return true;
+    }
+    return true;
   }
 
   bool Whole(const RangeOptions& options) {
     const WalkWindow range = WholeRange(problem_, at_);
-    RangeSearch search(
-        range, options, monitor_,
-        [this](const HomotopyParameters& walk, double cost, double) {
-          at_ = walk;
-          monitor_.Adopt(AcceptedInParts::Walk(walk), cost, DurationOf(walk));
-        },
-        &end_);
+    RangeSearch search(range, options, monitor_, Adopting(), &end_);
     monitor_.Adopt(*monitor_.accepted(), search.path().cost(), DurationOf(at_));
     if (!search.moves()) return true;
-    std::vector<HomotopyParameters> starts = {at_};
-    if (start_ == SearchStart::kTypical && met_ == 0) {
-      starts = {Typical(range, nullptr), Typical(range, &TypicalForms().back()), problem_.Start()};
+    const bool from_forms = start_ == SearchStart::kTypical && met_ == 0;
+    if (!from_forms || rested_) {
+      const double more = rested_ ? options.tuning.sure_reserve : 1.0;
+      if (!search.From(at_, more, effort_)) return false;
     }
-    for (const HomotopyParameters& start : starts) {
-      if (!search.From(start, 1.0, effort_)) return false;
+    if (from_forms) {
+      for (const HomotopyParameters& start : Starts(range)) {
+        if (!search.From(start, 1.0, effort_)) return false;
+      }
     }
     // Where rounds lead into what cannot be mended, the incumbent, which has come a part of the
     // way, is a place to set out from again.
@@ -117,8 +138,10 @@ class Stages {
   }
 
   bool SearchAt(int first, int last, bool first_pass, RangeOptions options) {
-    // What comes behind will be moved: the rest can wait.
-    options.first_proof = first_pass;
+    if (first_pass) {  // what comes behind will be moved: the rest can wait
+      options.first_proof = true;
+      options.program = Resting(options.program, problem_);
+    }
     const WalkWindow window = WindowOf(problem_, at_, first, last);
     const double before = monitor_.cost();
     RangeSearch search(
@@ -174,6 +197,7 @@ class Stages {
   SearchEnding& end_;
   HomotopyParameters at_;  // the incumbent
   int met_ = 0;            // half-steps that were in a window
+  bool rested_ = false;    // whether it is near walks on whose support points the robot can rest
 };
 
 }  // namespace

@@ -24,6 +24,10 @@ struct SearchStage {
   int step = 0;     ///< half-steps by which the next window lies further on; even, 2 … window
   int passes = 1;   ///< over the walk at most; a later one takes windows near which something moved
   int rounds = 40;  ///< from each start at most
+  /// Over the whole, and from the first start that leads there: until an end is proved, with
+  /// support points on which the robot could rest. Slower half-steps are feasible there where
+  /// faster ones are refused.
+  bool resting = false;
 };
 
 /// Lowers the cost of the monitor's incumbent, which is proved, by one stage after the other, each

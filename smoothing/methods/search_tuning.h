@@ -26,12 +26,15 @@ struct SearchTuning {
   /// A round gains that lowers the cost by more than this part of it.
   double gain = 1e-3;
   int poor_rounds = 5;  ///< in a row end the rounds from a start
-  /// How much more the rows keep in reserve when rounds begin again at the incumbent, every other
-  /// time, so that they go another way.
+  /// How much more the rows keep in reserve where rounds leave walks on whose support points the
+  /// robot can rest: no half-step gets its margins back by being slower there.
+  double sure_reserve = 4.0;
+  /// How much more they keep when rounds begin again at the incumbent, every other time, so that
+  /// they go another way.
   double more_reserve = 5.0;
   int poor_starts = 3;  ///< in a row that gain next to nothing end the search
-  /// Half-steps above which a search begins in windows of so many, by so many: rounds over the whole
-  /// would gain late.
+  /// Half-steps above which a search begins in windows of so many, by so many: rounds over the
+  /// whole would gain late.
   int long_walk = 100, window = 12, step = 8;
   int window_rounds = 6;  ///< in each of them, before rounds over the whole
   /// Part of the effort that is kept for the dichotomy in the end.

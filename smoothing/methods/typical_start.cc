@@ -1,8 +1,9 @@
 #include "smoothing/methods/typical_start.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <numbers>
+#include <optional>
 #include <vector>
 
 #include "wpg/nth.h"
@@ -12,21 +13,51 @@ namespace {
 
 // HRP-2's lengths, with which the forms were measured [m].
 constexpr double kComHeight = 0.8, kStandingWidth = 0.21;
+// Instants of a half-step at which it is asked whether a step touches an obstacle.
+constexpr int kLooks = 8;
+// Medians of single parameters make no walk: a little slower, hardly any row is violated.
+constexpr double kSlower = 1.05;
 
+// From where on a step is of a class: aside, of the standing width; back, of the CoM's height;
+// turning [rad].
+constexpr double kAside = 0.45, kBack = 0.06, kTurn = 0.2;
+
+// A table, two lines a form.
+// clang-format off
 constexpr std::array kForms = {
-    TypicalForm{"level", 0.72, 0.85, 1.0, 0.25, 0.055, 0.23, 0.0, 0.27, 0.095, 0.58, 0.02, 0.1},
-    TypicalForm{"high", 1.0, 0.85, 1.0, 0.4, 0.055, 0.23, 0.0, 0.27, 0.095, 0.58, 0.02, 0.1},
+    TypicalForm{"level", {0.699, 0.703}, 0.871, 0.998, 0.15, 0.058, 0.186, 0.046,
+                {0.246, 0.249}, {0.117, 0.11}, {0.47, 0.505}, {0.02, 0.02}, {0.1, 0.1}},
+    TypicalForm{"first", {0.61, 0.666}, 0.825, 1.0, 0.145, 0.052, 0.26, -0.019,
+                {0.295, 0.302}, {0.094, 0.087}, {0.627, 0.575}, {0.02, 0.02}, {0.1, 0.1}},
+    TypicalForm{"last", {0.66, 0.615}, 0.83, 1.0, 0.138, 0.053, 0.216, 0.016,
+                {0.274, 0.257}, {0.101, 0.096}, {0.59, 0.59}, {0.02, 0.02}, {0.1, 0.1}},
+    TypicalForm{"turning", {0.658, 0.67}, 0.873, 0.998, 0.163, 0.068, 0.183, 0.051,
+                {0.225, 0.226}, {0.105, 0.096}, {0.491, 0.492}, {0.02, 0.02}, {0.1, 0.1}},
+    TypicalForm{"backward", {0.727, 0.716}, 0.87, 0.999, 0.161, 0.058, 0.192, 0.039,
+                {0.241, 0.242}, {0.083, 0.124}, {0.539, 0.47}, {0.02, 0.021}, {0.1, 0.1}},
+    TypicalForm{"sideways", {1.179, 1.195}, 0.846, 1.0, 0.281, 0.04, 0.239, -0.003,
+                {0.21, 0.204}, {0.051, 0.06}, {0.406, 0.402}, {0.02, 0.02}, {0.175, 0.154}},
+    TypicalForm{"over", {1.031, 1.064}, 0.553, 0.787, 0.6, 0.03, 0.283, -0.004,
+                {0.454, 0.464}, {0.084, 0.08}, {0.931, 0.981}, {0.02, 0.025}, {0.82, 0.915}},
+    TypicalForm{"high", {1.0, 1.0}, 0.871, 0.998, 0.4, 0.058, 0.186, 0.046,
+                {0.246, 0.249}, {0.117, 0.11}, {0.47, 0.505}, {0.02, 0.02}, {0.1, 0.1}},
 };
+// clang-format on
 
-// The value of a form for a family, and whether the family has one.
-std::optional<double> ValueOf(const TypicalForm& form, ParameterFamily family,
+const TypicalForm& Form(std::string_view name) {
+  return *std::find_if(kForms.begin(), kForms.end(),
+                       [&](const TypicalForm& form) { return form.name == name; });
+}
+
+// The value of a form for a family, in the up (0) or down (1) half-step where it is one of those.
+std::optional<double> ValueOf(const TypicalForm& form, ParameterFamily family, int half,
                               const RobotModel& robot) {
   const double width = robot.standing_width / kStandingWidth;
   switch (family) {
     case ParameterFamily::kHeightScale:
       return form.height_scale;
     case ParameterFamily::kDuration:
-      return form.duration * std::sqrt(robot.com_height / kComHeight);
+      return kSlower * Nth(form.duration, half) * std::sqrt(robot.com_height / kComHeight);
     case ParameterFamily::kSupportPoint:
       return form.support_point * width;
     case ParameterFamily::kViaLateral:
@@ -34,46 +65,79 @@ std::optional<double> ValueOf(const TypicalForm& form, ParameterFamily family,
     case ParameterFamily::kViaAlong:
       return form.via_along * robot.com_height / kComHeight;
     case ParameterFamily::kFootRamp:
-      return form.foot_ramp;
+      return Nth(form.foot_ramp, half);
     case ParameterFamily::kFootDelay:
-      return form.foot_delay;
+      return Nth(form.foot_delay, half);
     case ParameterFamily::kLiftShare:
-      return form.lift_share;
+      return Nth(form.lift_share, half);
     case ParameterFamily::kZmpShift:
-      return form.zmp_shift;
+      return Nth(form.zmp_shift, half);
     case ParameterFamily::kZmpBumpRamp:
-      return form.zmp_bump_ramp;
+      return Nth(form.zmp_bump_ramp, half);
     default:
       return std::nullopt;
   }
+}
+
+using Forms = std::vector<const TypicalForm*>;  // of each step
+
+HomotopyParameters StartOf(const HalfStepSequence& sequence, const ParameterTable& table,
+                           const RobotModel& robot, const Forms& forms) {
+  HomotopyParameters start = table.Start();
+  for (const ParameterRow& row : table.rows()) {
+    if (row.fixed) continue;
+    const ParameterFamily family = row.parameter.family;
+    const int half_step = Traits(family).half_steps(row.parameter.index).first;
+    const std::optional<double> value =
+        ValueOf(*Nth(forms, half_step / 2), family, half_step % 2, robot);
+    if (value) row.parameter.in(start) = std::clamp(*value, row.lower, row.upper);
+  }
+  for (int i = 0; i < sequence.num_junctions(); ++i) {
+    if (!table.free({ParameterFamily::kOverlap, i})) continue;
+    const TypicalForm& own = *Nth(forms, i / 2);
+    const bool up_down = KindOfJunction(i) == JunctionKind::kUpDown;
+    Nth(start.overlaps, i) = (up_down ? own.up_down : own.down_up) * NaturalOverlapBound(start, i);
+  }
+  return start;
 }
 
 }  // namespace
 
 std::span<const TypicalForm> TypicalForms() { return kForms; }
 
-const TypicalForm& FormOfStep(const HalfStepSequence&, int) { return kForms.front(); }
+const TypicalForm& FormOfStep(const HalfStepSequence& sequence, int step, const RobotModel& robot) {
+  const Foothold& from = Nth(sequence.half_steps, 2 * step).half_step.X_SF;
+  const Foothold& to = Nth(sequence.half_steps, 2 * step + 1).half_step.X_SF;
+  if (std::abs(to.y - from.y) > kAside * robot.standing_width) return Form("sideways");
+  if (step == 0) return Form("first");
+  if (step + 1 == sequence.num_steps()) return Form("last");
+  if (std::abs(to.yaw - from.yaw) > kTurn) return Form("turning");
+  return Form(to.x - from.x < -kBack * robot.com_height ? "backward" : "level");
+}
 
-HomotopyParameters TypicalStart(const HalfStepSequence& sequence, const ParameterTable& table,
-                                const RobotModel& robot, const TypicalForm* form) {
-  const auto form_of = [&](int step) -> const TypicalForm& {
-    return form != nullptr ? *form : FormOfStep(sequence, step);
-  };
-  HomotopyParameters start = table.Start();
-  for (const ParameterRow& row : table.rows()) {
-    if (row.fixed) continue;
-    const ParameterFamily family = row.parameter.family;
-    const int half_step = Traits(family).half_steps(row.parameter.index).first;
-    const std::optional<double> value = ValueOf(form_of(half_step / 2), family, robot);
-    if (value) row.parameter.in(start) = std::clamp(*value, row.lower, row.upper);
+HomotopyParameters TypicalStart(const WalkProblem& problem, const ParameterChoice& choice,
+                                MarginEvaluator::Scratch* scratch, const TypicalForm* form) {
+  const HalfStepSequence& sequence = problem.sequence();
+  const ParameterTable table = problem.Parameters(choice);
+  Forms forms;
+  for (int j = 0; j < sequence.num_steps(); ++j) {
+    forms.push_back(form != nullptr ? form : &FormOfStep(sequence, j, problem.robot()));
   }
-  for (int i = 0; i < sequence.num_junctions(); ++i) {
-    if (!table.free({ParameterFamily::kOverlap, i})) continue;
-    const TypicalForm& own = form_of(i / 2);
-    const bool up_down = KindOfJunction(i) == JunctionKind::kUpDown;
-    Nth(start.overlaps, i) = (up_down ? own.up_down : own.down_up) * NaturalOverlapBound(start, i);
+  const HomotopyParameters start = StartOf(sequence, table, problem.robot(), forms);
+  if (form != nullptr || problem.scene().obstacles.empty()) return start;
+  const SuperposedWalk walk(sequence, start);
+  const double demanded = problem.limits().demanded_of(MarginFamily::kClearance);
+  for (int k = 0; k < sequence.size(); ++k) {
+    for (int look = 0; look < kLooks; ++look) {
+      const LocalTime at{k, (look + 0.5) / kLooks * Nth(start.durations, k)};
+      const MarginSet margins = problem.evaluator().At(walk, at, scratch);
+      const double clearance = Nth(margins, MarginFamily::kClearance).value;
+      if (clearance >= demanded || !std::isfinite(clearance)) continue;
+      Nth(forms, k / 2) = &Form("over");
+      break;
+    }
   }
-  return start;
+  return StartOf(sequence, table, problem.robot(), forms);
 }
 
 }  // namespace halfstep

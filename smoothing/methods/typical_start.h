@@ -1,38 +1,41 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <string_view>
 
-#include "smoothing/walk/parameter_table.h"
-#include "wpg/robot/robot_model.h"
+#include "smoothing/methods/walk_problem.h"
 
 namespace halfstep {
 
-/// What half-steps of fast walks look like: medians over walks that long searches found, of HRP-2
-/// under the limits of its robot file and the default margins. Source: smoothing/README.md,
-/// "Typical forms", with the script that measures them.
+/// What steps of fast walks look like: medians over the steps of one class in walks that searches
+/// found, of HRP-2 under the limits of its robot file and the default margins. Arrays: the step's
+/// up half-step, then its down half-step. Source: smoothing/README.md, "Typical forms";
+/// notebooks-data/drawn_walks/typical_forms.csv, which `make_data.sh` measures again.
 struct TypicalForm {
-  std::string_view name;  ///< "level"
-  double duration;        ///< T [s], scaled by √z_c
-  double up_down;         ///< Δ of its natural bound, from up to down
-  double down_up;         ///< the same from down to up
-  double height_scale;    ///< η
-  double support_point;   ///< [m], scaled by the standing width, as the next
-  double via_lateral;     ///< [m]
-  double via_along;       ///< [m], scaled by the leg
-  double foot_ramp, foot_delay, lift_share, zmp_shift, zmp_bump_ramp;  ///< as in HalfStepShape
+  std::string_view name;           ///< "level"
+  std::array<double, 2> duration;  ///< T [s], scaled by √z_c
+  double up_down;                  ///< Δ in the step, of its natural bound
+  double down_up;                  ///< Δ to the step after it, of its natural bound
+  double height_scale;             ///< η
+  double support_point;            ///< [m], scaled by the standing width, as the next
+  double via_lateral;              ///< [m]
+  double via_along;                ///< [m], scaled by the leg
+  std::array<double, 2> foot_ramp, foot_delay, lift_share, zmp_shift, zmp_bump_ramp;  ///< fractions
 };
 
-/// All of them. The first is that of level ground, the last the slowest and highest.
+/// All of them; the last is the slowest, of long steps.
 std::span<const TypicalForm> TypicalForms();
 
-/// The form for a step: by how it turns, goes aside or back, and whether its foot is planned to
-/// pass over something.
-const TypicalForm& FormOfStep(const HalfStepSequence& sequence, int step);
+/// The form for a step by its place in the walk and where its foot goes, whatever is in its way.
+const TypicalForm& FormOfStep(const HalfStepSequence& sequence, int step, const RobotModel& robot);
 
-/// A point near which fast walks are: each step in its typical form, or in `form` where that is not
-/// null, as far as the table's ranges allow; what is fixed stays. Nothing is proved of it.
-HomotopyParameters TypicalStart(const HalfStepSequence& sequence, const ParameterTable& table,
-                                const RobotModel& robot, const TypicalForm* form = nullptr);
+/// A point near which fast walks are: each step in its own form, or in `form` where that is not
+/// null, as far as the ranges of `choice` allow. Steps that would touch an obstacle so, at a few
+/// instants, take the form over obstacles. What is fixed stays. Nothing is proved of it. `scratch`
+/// counts the work.
+HomotopyParameters TypicalStart(const WalkProblem& problem, const ParameterChoice& choice,
+                                MarginEvaluator::Scratch* scratch,
+                                const TypicalForm* form = nullptr);
 
 }  // namespace halfstep

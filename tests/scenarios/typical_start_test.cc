@@ -4,10 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "smoothing/walk/parameter_complaint.h"
 #include "tests/scenarios/load_experiment.h"
+#include "tests/smoothing/fake_feasibility.h"
+#include "tests/smoothing/smoothed.h"
 
 namespace halfstep {
 namespace {
@@ -17,7 +23,14 @@ class TypicalStartTest : public testing::Test {
   HomotopyParameters Typical(const ParameterChoice& choice,
                              const std::vector<FixedParameter>& fixed = {},
                              const TypicalForm* form = nullptr) const {
-    return TypicalStart(e_.sequence, ParameterTable(e_.sequence, fixed, choice), e_.robot, form);
+    return In(e_.robot, e_.scene, choice, fixed, form);
+  }
+  HomotopyParameters In(const RobotModel& robot, const Scene& scene, const ParameterChoice& choice,
+                        const std::vector<FixedParameter>& fixed = {},
+                        const TypicalForm* form = nullptr) const {
+    const WalkProblem problem(robot, scene, e_.sequence, e_.config.smoothing.limits, fixed);
+    MarginEvaluator::Scratch scratch = problem.evaluator().MakeScratch();
+    return TypicalStart(problem, choice, &scratch, form);
   }
   static ParameterChoice Everything() {
     ParameterChoice choice = EveryFamily();
@@ -46,27 +59,86 @@ TEST_F(TypicalStartTest, IsAPointOfTheHomotopyWithinItsRanges) {
   }
 }
 
-// Without a form each step has its own.
+// Without a form each step has its own: by what it does, or that over an obstacle that it would
+// touch.
 TEST_F(TypicalStartTest, StepsHaveTheirForms) {
-  const HomotopyParameters start = Typical(Everything());
-  const TypicalForm& form = FormOfStep(e_.sequence, 0);
-  EXPECT_EQ(start.height_scales[0], form.height_scale);
-  EXPECT_EQ(start.of(ParameterFamily::kFootRamp)[0], form.foot_ramp);
-  EXPECT_EQ(start.of(ParameterFamily::kLiftShare)[0], form.lift_share);
-  EXPECT_LT(start.durations[0], planned_.durations[0]);
+  const HomotopyParameters free = In(e_.robot, {}, Everything());
+  const HomotopyParameters over_bar = Typical(Everything());
+  const auto form = [](std::string_view name) {
+    const auto forms = TypicalForms();
+    return *std::find_if(forms.begin(), forms.end(),
+                         [&](const TypicalForm& f) { return f.name == name; });
+  };
+  int over = 0;
+  for (int j = 0; j < e_.sequence.num_steps(); ++j) {
+    const size_t at = static_cast<size_t>(j);
+    EXPECT_EQ(free.height_scales[at], FormOfStep(e_.sequence, j, e_.robot).height_scale);
+    if (over_bar.height_scales[at] == free.height_scales[at]) continue;
+    EXPECT_EQ(over_bar.height_scales[at], form("over").height_scale) << j;
+    EXPECT_EQ(over_bar.of(ParameterFamily::kLiftShare)[2 * at + 1], form("over").lift_share[1]);
+    ++over;
+  }
+  EXPECT_GT(over, 0);
+  EXPECT_LT(over, e_.sequence.num_steps());
   const HomotopyParameters slow = Typical(Everything(), {}, &TypicalForms().back());
-  EXPECT_LT(DurationOf(start), DurationOf(slow));
+  EXPECT_LT(DurationOf(free), DurationOf(over_bar));
+  EXPECT_LT(DurationOf(over_bar), DurationOf(slow));
   EXPECT_LT(DurationOf(slow), DurationOf(planned_));
+}
+
+// What notebooks-data/typical_forms.py measured is what searches begin with.
+TEST(TypicalForms, AreThoseThatWereMeasured) {
+  std::ifstream table(HALFSTEP_SOURCE_DIR "/notebooks-data/drawn_walks/typical_forms.csv");
+  std::string line, cell;
+  ASSERT_TRUE(std::getline(table, line));  // its header
+  for (const TypicalForm& form : TypicalForms()) {
+    if (form.name == "high") break;
+    ASSERT_TRUE(std::getline(table, line)) << form.name;
+    std::istringstream cells(line);
+    std::getline(cells, cell, ',');
+    EXPECT_EQ(cell, form.name);
+    std::getline(cells, cell, ',');  // how many steps
+    std::vector<double> values = {form.up_down,       form.down_up,     form.height_scale,
+                                  form.support_point, form.via_lateral, form.via_along};
+    for (const auto& halves : {form.duration, form.foot_ramp, form.foot_delay, form.lift_share,
+                               form.zmp_shift, form.zmp_bump_ramp}) {
+      values.insert(values.end(), halves.begin(), halves.end());
+    }
+    for (const double value : values) {
+      ASSERT_TRUE(std::getline(cells, cell, ',')) << form.name;
+      EXPECT_DOUBLE_EQ(std::stod(cell), value) << form.name;
+    }
+    EXPECT_FALSE(std::getline(cells, cell, ','));
+  }
+  EXPECT_FALSE(std::getline(table, line));
+}
+
+TEST_F(TypicalStartTest, FormsGoByWhatAStepDoes) {
+  const auto names = [this](const std::vector<Footstep>& footsteps) {
+    const HalfStepSequence walk =
+        MakeSequence(e_.sequence.start, footsteps, 0.24, {}, e_.sequence.model);
+    std::vector<std::string_view> of;
+    for (int j = 0; j < walk.num_steps(); ++j) of.push_back(FormOfStep(walk, j, e_.robot).name);
+    return of;
+  };
+  const auto to = [](Side side, double x, double y, double yaw) {
+    return Footstep{.side = side, .X_WF = Foothold::Level({x, y, yaw})};
+  };
+  const double w = 0.5 * e_.robot.standing_width;
+  EXPECT_EQ(
+      names({to(Side::kRight, 0.1, -w, 0), to(Side::kLeft, 0.2, w, 0),
+             to(Side::kRight, 0.3, -w, -0.4), to(Side::kLeft, -0.1, w, -0.4),
+             to(Side::kRight, 0.0, -w - 0.15, -0.4), to(Side::kLeft, 0.0, w, -0.4)}),
+      (std::vector<std::string_view>{"first", "level", "turning", "backward", "sideways", "last"}));
 }
 
 // Times go with the root of the pendulum's height, lengths with the robot's own.
 TEST_F(TypicalStartTest, FormsAreScaledToTheRobot) {
-  const HomotopyParameters start = Typical(Everything());
+  const HomotopyParameters start = In(e_.robot, {}, Everything());
   RobotModel robot = e_.robot;
   robot.com_height *= 0.81;
   robot.standing_width *= 0.9;
-  const HomotopyParameters smaller =
-      TypicalStart(e_.sequence, ParameterTable(e_.sequence, {}, Everything()), robot);
+  const HomotopyParameters smaller = In(robot, {}, Everything());
   EXPECT_NEAR(smaller.durations[0], 0.9 * start.durations[0], 1e-12);
   EXPECT_NEAR(smaller.support_points[0], 0.9 * start.support_points[0], 1e-12);
   EXPECT_EQ(smaller.height_scales, start.height_scales);
