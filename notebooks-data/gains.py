@@ -18,8 +18,9 @@ SCENARIOS = ["fig3_two_half_steps", "fig4_raw_sequence", "fig5_box", "bar_5cm", 
 FORMS = {"heights": "false", "durations": "false", "all_families": "false"}
 # Of each run: what it sets, and its methods with the column that each fills.
 RUNS = [
-    ({}, {"dichotomy": "dichotomy", "dichotomy/uniform": "best uniform T and η, then dichotomy",
-          "halfstep/sqp": "`halfstep/sqp`, every family (the default)"}),
+    ({}, {"dichotomy": "dichotomy", "halfstep/sqp": "`halfstep/sqp`, every family (the default)"}),
+    # The grid is scanned to its end.
+    ({"effort": "60"}, {"dichotomy/uniform": "best uniform T and η, then dichotomy"}),
     (FORMS, {"halfstep/sqp": "`halfstep/sqp`, Δ alone"}),
     (FORMS | {"heights": "true", "durations": "true"},
      {"halfstep/sqp": "`halfstep/sqp`, Δ, η, T", "halfstep/barrier": "`halfstep/barrier`, Δ, η, T"}),
@@ -62,7 +63,10 @@ def main():
         table += "|---" * (len(COLUMNS) + 1) + "|\n"
         for scenario in SCENARIOS:
             table += row_of(halfstep, scenario, folder)
-    page.write_text(text[:begin] + table + text[text.index("\n\n", begin) + 1:], encoding="utf-8")
+    end = begin
+    while text.startswith("|", end):
+        end = text.index("\n", end) + 1
+    page.write_text(text[:begin] + table + text[end:], encoding="utf-8")
 
 
 if __name__ == "__main__":

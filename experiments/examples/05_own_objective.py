@@ -5,7 +5,7 @@ from scipy.optimize import Bounds, NonlinearConstraint, minimize
 import halfstep as hs
 
 experiment = hs.Experiment("bar_8cm")
-program = hs.OverlapProgram(experiment, heights=True)
+program = hs.OverlapProgram(experiment, heights=True, least_height_scale=0.2)
 rows = NonlinearConstraint(program.constraints, program.constraint_lower, np.inf,
                            jac=lambda x: program.jacobian(x).toarray())
 heights = np.array([name.startswith("height_scale") for name in program.names], dtype=float)

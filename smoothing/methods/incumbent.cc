@@ -64,26 +64,20 @@ bool Incumbent::Replace(const HomotopyParameters& point, std::vector<Margin>* re
 
 namespace {
 
-// Half-steps of a step share numbers, so they stay together.
-void Hold(size_t first, size_t last, std::vector<double>* lambda) {
-  for (size_t i = first / 2 * 2; i < std::min(lambda->size(), last / 2 * 2 + 2); ++i) {
-    (*lambda)[i] = 0.0;
-  }
-}
-
-// They go half of the way that they went, or not at all.
-void HoldBack(size_t first, size_t last, std::vector<double>* lambda) {
+// Half-steps of a step share numbers, so they stay together. They go half of the way that they
+// went, at last or `wholly` none of it.
+void HoldBack(size_t first, size_t last, bool wholly, std::vector<double>* lambda) {
   constexpr double kLeastPart = 0.3;
   for (size_t i = first / 2 * 2; i < std::min(lambda->size(), last / 2 * 2 + 2); ++i) {
     double& part = (*lambda)[i];
-    part = part > kLeastPart ? 0.5 * part : 0.0;
+    part = !wholly && part > kLeastPart ? 0.5 * part : 0.0;
   }
 }
 
 std::vector<double> AllBut(const std::vector<bool>& held, size_t n) {
   std::vector<double> lambda(n, 1.0);
   for (size_t i = 0; i < held.size(); ++i) {
-    if (held[i]) Hold(i, i, &lambda);
+    if (held[i]) HoldBack(i, i, true, &lambda);
   }
   return lambda;
 }
@@ -133,7 +127,7 @@ double Incumbent::Toward(const HomotopyParameters& candidate, int attempts,
         for (size_t i = first; i <= k; ++i) ++times[i];
         longer = true;
       } else {
-        HoldBack(first, k + 1, &lambda);
+        HoldBack(first, k + 1, false, &lambda);
       }
     }
     if (!longer && lambda == before) break;  // what is refused does not move

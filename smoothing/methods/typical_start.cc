@@ -16,7 +16,7 @@ constexpr double kComHeight = 0.8, kStandingWidth = 0.21;
 // Instants of a half-step at which it is asked whether a step touches an obstacle.
 constexpr int kLooks = 8;
 // Medians of single parameters make no walk: a little slower, hardly any row is violated.
-constexpr double kSlower = 1.05;
+constexpr double kSlower = 1.2;
 
 // From where on a step is of a class: aside, of the standing width; back, of the CoM's height;
 // turning [rad].

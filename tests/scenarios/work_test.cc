@@ -74,12 +74,12 @@ TEST_F(WorkTest, TheSameEffortFindsTheSameTwice) {
 }
 
 TEST_F(WorkTest, EffortEndsASearchAsALimit) {
-  const SmoothingResult result = Find("halfstep/sqp", With(0.3));
+  const SmoothingResult result = Find("halfstep/sqp", With(0.15));
   EXPECT_EQ(result.ending, opt::Ending::kLimit) << result.message;
-  EXPECT_THAT(result.message, StartsWith("the effort of 0.3 was used"));
+  EXPECT_THAT(result.message, StartsWith("the effort of 0.15 was used"));
   EXPECT_LT(DurationOf(result.parameters), DurationOf(PlannedMotion(e_.sequence)));
   // The caller's is a limit just as well.
-  const SmoothingResult callers = Find("halfstep/sqp", With(100.0), {.effort = 0.3});
+  const SmoothingResult callers = Find("halfstep/sqp", With(100.0), {.effort = 0.15});
   ExpectSame(result, callers);
 }
 

@@ -75,11 +75,13 @@ TEST_F(IncumbentTest, StepsAroundARefusalStayAndTheRestIsTriedAgain) {
   EXPECT_EQ(path.Toward(candidate, 1), 0.0);
   EXPECT_EQ(path.refused(), 1);
   EXPECT_EQ(path.parameters(), planned);
-  const double lambda = path.Toward(candidate, 2);
-  EXPECT_NEAR(lambda, 6.0 / 8, 1e-12);  // half-steps 0 and 1 stay where they are
+  // They go half of the way first, then a quarter, which is short enough.
+  const double lambda = path.Toward(candidate, 3);
+  EXPECT_NEAR(lambda, 6.5 / 8, 1e-12);
   EXPECT_EQ(path.refusals().size(), 1u);
   for (size_t i = 0; i < 7; ++i) {
-    EXPECT_NEAR(path.parameters().overlaps[i], i < 2 ? 0.0 : candidate.overlaps[i], 1e-12) << i;
+    EXPECT_NEAR(path.parameters().overlaps[i], (i < 2 ? 0.25 : 1.0) * candidate.overlaps[i], 1e-12)
+        << i;
   }
   EXPECT_EQ(path.cost(), DurationOf(path.parameters()));
 }
@@ -142,11 +144,11 @@ TEST_F(IncumbentTest, HalfStepsThatAreRefusedLastLongerAndTheRestMoves) {
       EXPECT_EQ(path.parameters().durations[k], candidate.durations[k]) << k;
     }
     EXPECT_GE(path.parameters().durations[0], least);
-    // Where it may not last longer, its step stays as it is.
+    // Where it may not last longer, its step goes half of the way.
     const bool longer = longest > candidate.durations[0];
-    EXPECT_EQ(path.parameters().durations[0] == planned.durations[0], !longer);
-    if (!longer) continue;
-    EXPECT_LT(path.parameters().durations[0], 1.1 * candidate.durations[0]);
+    const double half = 0.5 * (planned.durations[0] + candidate.durations[0]);
+    EXPECT_NEAR(path.parameters().durations[0], longer ? 1.08 * candidate.durations[0] : half,
+                1e-9);
   }
 }
 
@@ -171,7 +173,7 @@ TEST_F(IncumbentTest, WhereWhatIsRefusedDoesNotMoveItIsLeftAlone) {
   });
   Incumbent path = Path(test, planned_);
   EXPECT_EQ(path.Toward(candidate, 8), 0.0);
-  EXPECT_EQ(path.refused(), 2) << "the same half-steps refuse it again";
+  EXPECT_EQ(path.refused(), 4) << "all of it, half, a quarter, and none of what was refused";
   EXPECT_EQ(path.parameters(), planned_);
 }
 
