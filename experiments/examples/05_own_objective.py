@@ -5,10 +5,11 @@ from scipy.optimize import Bounds, NonlinearConstraint, minimize
 import halfstep as hs
 
 experiment = hs.Experiment("bar_8cm")
-program = hs.OverlapProgram(experiment, heights=True, least_height_scale=0.2)
+program = hs.OverlapProgram(experiment, heights=True)
 rows = NonlinearConstraint(program.constraints, program.constraint_lower, np.inf,
                            jac=lambda x: program.jacobian(x).toarray())
 heights = np.array([name.startswith("height_scale") for name in program.names], dtype=float)
+lower = np.maximum(program.lower, 0.2 * heights)  # no foot lower than a fifth of what is planned
 
 for weight in (0.0, 2.0):  # [s per planned height]
     x = np.clip(program.to_x(experiment.smooth(tolerance_s=0.05).walk), 0.0, program.upper)
@@ -16,8 +17,8 @@ for weight in (0.0, 2.0):  # [s per planned height]
     for _ in range(5):
         x = minimize(lambda x: program.cost(x) + weight * heights @ x, x,
                      jac=lambda x: program.gradient(x) + weight * heights, method="SLSQP",
-                     bounds=Bounds(program.lower, program.upper), constraints=[rows],
-                     options={"maxiter": 10}).x.clip(program.lower, program.upper)
+                     bounds=Bounds(lower, program.upper), constraints=[rows],
+                     options={"maxiter": 10}).x.clip(lower, program.upper)
         if program.refine(x).proved:
             best = program.walk(x)
     print(f"weight {weight}: " + ("nothing proved" if best is None else

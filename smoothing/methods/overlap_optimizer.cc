@@ -20,6 +20,8 @@ namespace {
 
 // A search that does not beat a plain dichotomy by this has found nothing [s].
 constexpr double kGainedTime = 1e-9;
+// Of the effort, which a dichotomy may use at least.
+constexpr double kBaselinePart = 0.5;
 
 class Optimization {
  public:
@@ -104,7 +106,7 @@ class Optimization {
     }
     MonitorOptions part = monitor_.Part(0.9, 1.0);
     // A solver that took more than its part of the effort leaves the baseline its own.
-    part.effort = std::max(part.effort, options_.tuning.last_part * monitor_.effort());
+    part.effort = std::max(part.effort, kBaselinePart * monitor_.effort());
     SmoothingMonitor within(part);
     const SmoothingResult found = Dichotomy(problem_, dichotomy, within);
     const double effort = monitor_.work().effort();

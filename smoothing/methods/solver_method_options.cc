@@ -117,6 +117,9 @@ void DeclareSearch(Fields& fields, OptimizerOptions* o) {
                  {.meaning = "solves from each start, each looking closer", .min = 1, .max = 100});
   fields.Boolean("windows", &o->windows,
                  {.meaning = "`halfstep/sqp` searches long walks in windows first"});
+  fields.Misplaced("planned_start",
+                   "is gone: rounds begin at the plan, too (`start`; leave it out)");
+  fields.Misplaced("random_starts", "is gone: starts are forms, not noise (`start`; leave it out)");
   std::string start(Name(o->start));
   fields.Text(
       "start", &start,
