@@ -14,8 +14,6 @@ struct SolverTraits {
   /// It does better with many simple rows, few of them active, than with few smooth rows that each
   /// aggregate many.
   bool many_rows = false;
-  /// It gets far in a few iterations where bounds leave room: no need to start near the solution.
-  bool long_steps = false;
   /// Iterations per call; after these, refining the problem gains more than iterating on.
   int iterations = 30;
   /// SolverOptions::solver_options for problems whose cost and rows are nearly linear.

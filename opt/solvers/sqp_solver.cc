@@ -294,10 +294,8 @@ class SqpSolver : public Solver {
   // Where all is nearly linear, what curvature a few steps show of it does more harm than good; nor
   // does a small penalty jam at curved rows.
   SolverTraits traits() const override {
-    return {.many_rows = true,
-            .long_steps = true,
-            .iterations = 3,
-            .nearly_linear = {{"memory", "0"}, {"penalty", "2"}}};
+    return {
+        .many_rows = true, .iterations = 3, .nearly_linear = {{"memory", "0"}, {"penalty", "2"}}};
   }
   bool available() const override { return true; }
   std::string WhyUnavailable() const override { return ""; }

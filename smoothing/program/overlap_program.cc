@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <random>
 #include <string>
 
 #include "smoothing/program/overlap_costs.h"
@@ -131,19 +130,6 @@ double OverlapProgram::Cost(const HomotopyParameters& parameters) const {
     return std::numeric_limits<double>::infinity();
   }
   return -watched_.LeastSlack(parameters, Raised());
-}
-
-void AddRandomPoints(const OverlapProgram& program, int count, unsigned seed,
-                     std::vector<HomotopyParameters>* points) {
-  std::mt19937_64 random(seed);
-  const opt::Problem problem = program.MakeProblem();
-  for (int i = 0; i < count; ++i) {
-    Eigen::VectorXd x(problem.num_variables());
-    for (Eigen::Index v = 0; v < x.size(); ++v) {
-      x[v] = std::uniform_real_distribution<double>(problem.lower()[v], problem.upper()[v])(random);
-    }
-    points->push_back(program.ToParameters(x));
-  }
 }
 
 }  // namespace halfstep

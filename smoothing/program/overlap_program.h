@@ -85,8 +85,4 @@ class OverlapProgram {
   WatchedInstants watched_;  // borrows variables_
 };
 
-/// Appends `count` points, uniformly distributed in the box of the program's variables.
-void AddRandomPoints(const OverlapProgram& program, int count, unsigned seed,
-                     std::vector<HomotopyParameters>* points);
-
 }  // namespace halfstep
