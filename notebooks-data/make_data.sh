@@ -1,6 +1,7 @@
 #!/bin/sh
 # Makes the CSV sets of this folder anew:  notebooks-data/make_data.sh [SET]...
 # Sets: fig4 fig5 sweep methods drawn_walks certificate planners; all by default. Runs take minutes.
+# And typical_forms, only when it is asked for: what is measured is where searches begin.
 # HALFSTEP: the command (build/release/experiments/halfstep). The sets `planners` and `certificate`
 # also need planner_study and motion_bounds_study, built beside it with -DHALFSTEP_BENCHMARKS=ON.
 set -eu
@@ -180,7 +181,8 @@ make_planners() {  # Twenty problems of each kind, four planners.
 
 for set in ${*:-fig4 fig5 sweep methods drawn_walks certificate planners}; do
   case $set in
-    fig4 | fig5 | sweep | methods | drawn_walks | certificate | planners) "make_$set" ;;
+    fig4 | fig5 | sweep | methods | typical_forms | drawn_walks | certificate | planners)
+      "make_$set" ;;
     *) echo "$0: no set $set" >&2; exit 2 ;;
   esac
 done

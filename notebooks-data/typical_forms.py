@@ -32,6 +32,9 @@ def steps_of(run):
     folder = pathlib.Path(run) / "halfstep_sqp"
     half_steps, overlaps = read(folder / "half_steps.csv"), read(folder / "overlaps.csv")
     footsteps = read(pathlib.Path(run) / "footsteps.csv")
+    if not set(OF_STEP) <= set(half_steps[0]):
+        print(f"{run}: left out: its forms are as planned", file=sys.stderr)
+        return
     at = {f["foot"]: [float(f[key]) for key in ("x_m", "y_m", "yaw_rad")] for f in footsteps[:2]}
     count = len(footsteps) - 2
     for j, footstep in enumerate(footsteps[2:]):

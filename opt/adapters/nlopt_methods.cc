@@ -3,7 +3,8 @@
 namespace halfstep::opt {
 
 const std::vector<NloptMethod>& NloptMethods() {
-  // name, algorithm, subsidiary, gradient, inequalities, equalities, finite bounds, least variables
+  // name, algorithm, subsidiary, gradient, inequalities, equalities, finite bounds, least
+  // variables, passes
   static const std::vector<NloptMethod> methods = {
       {"nlopt/ccsaq", "LD_CCSAQ", "", true, true, false, false, 1, 200},
       {"nlopt/mma", "LD_MMA", "", true, true, false, false, 1, 2500},

@@ -15,8 +15,11 @@
 namespace halfstep::opt {
 namespace {
 
+using Eigen::VectorXd;
+using SparseMatrix = Eigen::SparseMatrix<double>;
+
 // Multiplications of a factorization with this factor, or of AᵀA for Aᵀ, about.
-long SquaredColumns(const Eigen::SparseMatrix<double>& matrix) {
+long SquaredColumns(const SparseMatrix& matrix) {
   long sum = 0;
   for (Eigen::Index k = 0; k < matrix.outerSize(); ++k) {
     const long entries = matrix.col(k).nonZeros();
@@ -24,9 +27,6 @@ long SquaredColumns(const Eigen::SparseMatrix<double>& matrix) {
   }
   return sum;
 }
-
-using Eigen::VectorXd;
-using SparseMatrix = Eigen::SparseMatrix<double>;
 
 constexpr double kPush = 1e-2;  // how far the start is pushed off its bounds, of their width
 constexpr double kArmijo = 1e-4;

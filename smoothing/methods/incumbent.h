@@ -12,7 +12,7 @@ namespace halfstep {
 
 /// Keeps the best point of the homotopy that was proved, the incumbent. A candidate replaces it
 /// only if it costs less and that was proved. Where one is refused, the half-steps around the
-/// refusal become longer; where that does not help, their steps stay as they are in the incumbent.
+/// refusal become longer; where that does not help, their steps go only a part of the way, or none.
 /// So whatever proposes candidates may stop at any moment.
 class Incumbent {
  public:

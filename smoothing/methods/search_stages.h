@@ -24,9 +24,8 @@ struct SearchStage {
   int step = 0;     ///< half-steps by which the next window lies further on; even, 2 … window
   int passes = 1;   ///< over the walk at most; a later one takes windows near which something moved
   int rounds = 40;  ///< from each start at most
-  /// Over the whole, and from the first start that leads there: until an end is proved, with
-  /// support points on which the robot could rest. Slower half-steps are feasible there where
-  /// faster ones are refused.
+  /// Over the whole, with support points on which the robot could rest, until nearly all of an end
+  /// is proved; a further start only where the one before led nowhere.
   bool resting = false;
 };
 

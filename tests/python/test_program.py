@@ -99,12 +99,12 @@ class WithSciPy(unittest.TestCase):
     def test_trust_constr_beats_the_dichotomy(self):
         program = hs.OverlapProgram(self.experiment, heights=True, durations=True)
         x, best = program.x0, program.x0
-        for _ in range(2):
+        for _ in range(3):
             x = self.minimize(program, x, "trust-constr", np.inf, maxiter=60, initial_tr_radius=0.1)
             if program.refine(x).proved and program.cost(x) < program.cost(best):
                 best = x
         walk = program.walk(best)
-        self.assertLess(walk.duration, 7.19)
+        self.assertLess(walk.duration, 7.1)
         self.assertTrue(walk.certify())
 
 

@@ -164,7 +164,11 @@ TEST(Horizon, OneBadHalfStepCostsItsWindowOnly) {
   const std::vector<double>& T = result.parameters.durations;
   const std::vector<double> planned = PlannedMotion(e.sequence).durations;
   EXPECT_EQ(T[7], planned[7]);
-  EXPECT_LT(T[0] + T[1] + T[2], 0.9 * (planned[0] + planned[1] + planned[2]));
+  // T_1 alone says little: where Δ_1 is as long as half-step 2 allows, both may grow for nothing.
+  for (const size_t k : {0u, 2u}) EXPECT_LT(T[k], 0.95 * planned[k]) << k;
+  for (const size_t k : {0u, 1u, 2u}) {
+    EXPECT_LT(T[k] - result.parameters.overlaps[k], 0.75 * planned[k]) << k;
+  }
 }
 
 // Regression: what a window gained is refused in the whole walk, and the gain of all was lost.

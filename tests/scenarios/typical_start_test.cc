@@ -12,8 +12,6 @@
 
 #include "smoothing/walk/parameter_complaint.h"
 #include "tests/scenarios/load_experiment.h"
-#include "tests/smoothing/fake_feasibility.h"
-#include "tests/smoothing/smoothed.h"
 
 namespace halfstep {
 namespace {
