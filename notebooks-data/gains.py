@@ -50,6 +50,8 @@ def row_of(halfstep, scenario, folder):
 
 
 def main():
+    if len(sys.argv) not in (2, 4):
+        sys.exit(__doc__)
     halfstep, page = str(pathlib.Path(sys.argv[1]).resolve()), ROOT / "README.md"
     text = page.read_text(encoding="utf-8")
     begin = text.index(MARK) + len(MARK)

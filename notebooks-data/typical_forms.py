@@ -65,6 +65,8 @@ def steps_of(run):
 
 
 def main():
+    if len(sys.argv) == 1:
+        sys.exit(__doc__)
     steps = [step for run in sys.argv[1:] for step in steps_of(run)]
     print(",".join(["class", "steps"] + COLUMNS))
     for name in CLASSES:
