@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kLegLength = 0.705;  // of HRP-2 [m]
 constexpr double kStance = 0.21;      // its standing width [m]
+constexpr double kSoleWidth = 0.137;  // of its soles, the shorter side [m]
 constexpr double kSpacing = 0.05;     // of its step set [m]
 constexpr double kDuration = 2.0;     // of its half-steps, T [s]
 // A leg joint's speed in a half-step over the highest bar of the shipped scenes is at most this
@@ -25,7 +26,18 @@ constexpr double kViaHeight = 0.25;  // of HRP-2's half-steps [m]
 constexpr double kRise = 6e-3;    // of a foot before it moves ahead: more than the floor margin [m]
 constexpr double kOfLift = 0.95;  // of the highest place of the swing foot
 
-enum class Law { kLength, kGrid, kAcross, kWidth, kDuration, kHeight, kAside, kDelay, kSupport };
+enum class Law {
+  kLength,
+  kGrid,
+  kAcross,
+  kWidth,
+  kDuration,
+  kHeight,
+  kAside,
+  kDelay,
+  kSupport,
+  kSole
+};
 
 // The decimal number of three digits that is nearest: HRP-2's numbers stay what they are.
 double Rounded(double value, int digits = 3) { return Shortened(value, digits); }
@@ -64,6 +76,8 @@ double Scaled(Law law, double hrp2, const RobotMeasures& robot) {
       return std::max(hrp2, Rounded(DelayToRise(kRise / Scaled(Law::kHeight, kViaHeight, robot))));
     case Law::kSupport:
       return robot.support_point;
+    case Law::kSole:
+      return Rounded(hrp2 * robot.sole_width / kSoleWidth);
   }
   return hrp2;
 }
@@ -87,6 +101,8 @@ std::string FormulaOf(Law law, const std::string& hrp2) {
       return "max(`" + hrp2 + "`, until the foot is 6 mm high)";
     case Law::kSupport:
       return "`support_point_m` of the robot";
+    case Law::kSole:
+      return "`" + hrp2 + "` · sole width/0.137 m";
   }
   return hrp2;
 }
@@ -124,6 +140,7 @@ std::vector<ScaledDefault> ScaledDefaults() {
       {"planner.bounding_box.feet_apart_m", Law::kWidth},
       {"planner.bounding_box.spacing_m", Law::kLength},
       {"planner.bounding_box.corridor_m", Law::kLength},
+      {"smoothing.margins.zmp_robot_m", Law::kSole},
   };
   for (const ParameterFamily family : AllParameterFamilies()) {
     for (const ParameterBoundKey& bound : Traits(family).bounds()) {

@@ -38,6 +38,25 @@ void DeclareGiven(Fields& fields, GivenWalkFiles* files) {
   }
 }
 
+// The limits become those of the profile that the file names, where that is another one than
+// before.
+void DeclareProfile(Fields& fields, SmoothingConfig* c) {
+  std::vector<std::string> names;
+  for (const DemandProfile profile : kDemandProfiles) names.emplace_back(Name(profile));
+  const std::string before = c->profile;
+  fields.Text("profile", &c->profile,
+              {.meaning = "what is demanded without further keys: `walkable`, what a robot needs; "
+                          "`limit`, what physics allows; `paper`, what the source paper asked",
+               .choices = names});
+  if (c->profile == before) return;
+  for (const DemandProfile profile : kDemandProfiles) {
+    if (c->profile != Name(profile)) continue;
+    OwnMargins own = std::move(c->limits.own);
+    c->limits = LimitsOf(profile);
+    c->limits.own = std::move(own);
+  }
+}
+
 void DeclareLimits(Fields& fields, MarginLimits* l) {
   fields.OptionalNumber("foot_speed_m_s", &l->foot_speed,
                         {.meaning = "of the swing sole's centre; none: no limit",
@@ -146,6 +165,7 @@ void DeclareSmoothing(Fields& fields, SmoothingConfig* c) {
   if (takes_given && !c->has_given) {
     fields.Complain("methods", "'given' without a walk (valid: with `smoothing.given`)");
   }
+  DeclareProfile(fields, c);
   fields.Group("limits", {.meaning = "what the robot file does not limit"},
                [&](Fields& f) { DeclareLimits(f, &c->limits); });
   fields.Group("margins", {.meaning = "demanded margins: feasible means at least this far inside"},

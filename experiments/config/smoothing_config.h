@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "smoothing/margins/demand_profile.h"
 #include "smoothing/margins/margin.h"
 #include "smoothing/methods/methods.h"
 #include "smoothing/proof/certificate.h"
@@ -39,7 +40,8 @@ struct SmoothingConfig {
   std::vector<FixedConfig> fixed;        ///< parameters that no method moves
   bool has_given = false;                ///< whether `given` names files
   GivenWalkFiles given;                  ///< of the method `given`
-  MarginLimits limits;                   ///< limits and demanded margins
+  std::string profile{Name(DemandProfile::kWalkable)};  ///< of which `limits` are, but for keys
+  MarginLimits limits = LimitsOf(DemandProfile::kWalkable);  ///< limits and demanded margins
 };
 
 /// Makes a config's methods, and the margins and costs of one's own, those that a program has.

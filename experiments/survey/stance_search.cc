@@ -268,12 +268,18 @@ class StanceSearch {
   RobotDraft& draft_;
 };
 
-}  // namespace
-
-HalfStep DefaultHalfStep(const RobotModel& robot) {
+ExperimentConfig DefaultConfig(const RobotModel& robot) {
   ExperimentConfig config;
   ScaleDefaults(MeasuresOf(robot), &config);
-  return PrototypeOf(config);
+  return config;
+}
+
+}  // namespace
+
+HalfStep DefaultHalfStep(const RobotModel& robot) { return PrototypeOf(DefaultConfig(robot)); }
+
+MarginLimits DefaultLimits(const RobotModel& robot) {
+  return DefaultConfig(robot).smoothing.limits;
 }
 
 std::vector<Posture> WalkedPostures(const RobotModel& robot) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "experiments/survey/robot_draft.h"
+#include "smoothing/margins/margin.h"
 #include "wpg/motion/half_step.h"
 #include "wpg/motion/posture.h"
 
@@ -18,6 +19,9 @@ struct StanceRequest {
 
 /// The half-step that a config without numbers would give this robot.
 HalfStep DefaultHalfStep(const RobotModel& robot);
+
+/// What such a config would demand of its walks.
+MarginLimits DefaultLimits(const RobotModel& robot);
 
 /// The robot's sampled postures in six steps of that half-step.
 std::vector<Posture> WalkedPostures(const RobotModel& robot);

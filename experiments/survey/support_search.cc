@@ -20,7 +20,7 @@ constexpr double kSupportStep = 1e-3;    // of the offsets that are tried [m]
 double LeastInSixSteps(const RobotModel& robot, MarginFamily family, double period) {
   const HalfStepSequence sequence = SixSteps(robot, DefaultHalfStep(robot));
   const SuperposedWalk walk(sequence, PlannedMotion(sequence));
-  const MarginEvaluator evaluator(robot, Scene{}, MarginLimits{});
+  const MarginEvaluator evaluator(robot, Scene{}, DefaultLimits(robot));
   MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
   double least = std::numeric_limits<double>::infinity();
   for (double t = 0.0; t < walk.duration(); t += period) {
@@ -38,7 +38,7 @@ FoundSupport FindSupport(RobotModel robot) {
   };
   robot.support_point = 0.0;
   found.before = found.after = zmp_of_robot();
-  if (found.before >= MarginLimits{}.demanded_of(MarginFamily::kZmpRobot)) return found;
+  if (found.before >= DefaultLimits(robot).demanded_of(MarginFamily::kZmpRobot)) return found;
   for (const double direction : {-1.0, 1.0}) {
     for (int i = 1; i * kSupportStep < 0.5 * robot.sole_size.y(); ++i) {
       robot.support_point = direction * i * kSupportStep;

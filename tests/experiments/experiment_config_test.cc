@@ -242,6 +242,32 @@ TEST(ExperimentConfig, AllFamiliesAreVariablesUnlessToldNot) {
   EXPECT_FALSE(again.smoothing.options.Get(OptimizerGroup()).options.program.parameters.heights);
 }
 
+TEST(ExperimentConfig, AProfileIsWhatIsDemandedWhereNoKeySaysOtherwise) {
+  const TemporaryFolder place;
+  const auto limits = [&](const std::string& robot, const std::vector<YamlOverride>& overrides) {
+    const std::string text =
+        "robot: " + robot + "\nscene: none\nfootsteps: [{foot: right, x_m: 0.2, y_m: -0.105}]\n";
+    const ExperimentConfig c = LoadConfig(WriteText(place / "c.yaml", text), overrides);
+    const ExperimentConfig again = LoadConfig(WriteText(place / "written.yaml", Written(c)), {});
+    EXPECT_EQ(again.smoothing.profile, c.smoothing.profile);
+    EXPECT_EQ(again.smoothing.limits.demanded, c.smoothing.limits.demanded);
+    EXPECT_EQ(again.smoothing.limits.foot_speed, c.smoothing.limits.foot_speed);
+    return c.smoothing.limits;
+  };
+  EXPECT_EQ(limits("hrp2", {}).demanded, LimitsOf(DemandProfile::kWalkable).demanded);
+  // A sole of 66 mm in place of 137 mm.
+  EXPECT_EQ(limits("wren", {}).demanded_of(MarginFamily::kZmpRobot), 0.0145);
+  EXPECT_EQ(limits("wren", {{"smoothing.profile", "limit"}}).demanded, MarginLimits{}.demanded);
+  const MarginLimits paper = limits("hrp2", {{"smoothing.profile", "paper"},
+                                             {"smoothing.margins.friction", "0.1"},
+                                             {"smoothing.limits.foot_speed_m_s", "0.9"}});
+  EXPECT_EQ(paper.demanded_of(MarginFamily::kZmpRobot), kNotDemanded);
+  EXPECT_EQ(paper.demanded_of(MarginFamily::kFriction), 0.1);
+  EXPECT_EQ(paper.foot_speed, 0.9);
+  EXPECT_EQ(paper.foot_yaw_rate, std::nullopt);
+  EXPECT_THROW(limits("hrp2", {{"smoothing.profile", "safe"}}), InputError);
+}
+
 TEST(ExperimentConfig, NothingNeedBeDemandedOfTheWholeRobotsZmp) {
   const TemporaryFolder place;
   const ExperimentConfig c = LoadConfig(WriteText(place / "c.yaml", kAllKeys),

@@ -190,7 +190,7 @@ TEST(ScaledDefaults, AreOfKeysThatThereAre) {
         }
       };
   count(formulas, values);
-  EXPECT_EQ(scaled, 29);
+  EXPECT_EQ(scaled, 30);
 }
 
 TEST(ScaledDefaults, GoByTheLegUnlessAKeySaysOtherwise) {

@@ -13,6 +13,10 @@ class NumberVisitor : public Fields {
   void Number(const char* key, double* value, const NumberSpec& spec) override {
     visit_(prefix_ + key, value, spec);
   }
+  void OptionalNumber(const char* key, std::optional<double>* value,
+                      const NumberSpec& spec) override {
+    if (*value) Number(key, &**value, spec);
+  }
   bool Group(const char* key, const GroupSpec&,
              const std::function<void(Fields&)>& declare) override {
     NumberVisitor group(prefix_ + key + ".", visit_);
@@ -23,7 +27,6 @@ class NumberVisitor : public Fields {
                      const std::function<void(Fields&)>& declare) override {
     Group(key, spec, declare);
   }
-  void OptionalNumber(const char*, std::optional<double>*, const NumberSpec&) override {}
   void Integer(const char*, int*, const NumberSpec&) override {}
   void Boolean(const char*, bool*, const TextSpec&) override {}
   void Text(const char*, std::string*, const TextSpec&) override {}

@@ -12,8 +12,9 @@ namespace halfstep {
 using NumberVisit =
     std::function<void(const std::string& path, double* value, const NumberSpec& spec)>;
 
-/// Calls `visit` for every Fields::Number that `declare` declares, also in groups that may be
-/// absent, but not in lists, in the order of the declaration. `visit` may change the value.
+/// Calls `visit` for every Fields::Number, and every OptionalNumber with a value, that `declare`
+/// declares, also in groups that may be absent, but not in lists, in the order of the declaration.
+/// `visit` may change the value.
 void VisitNumbers(const std::function<void(Fields&)>& declare, const NumberVisit& visit);
 
 }  // namespace halfstep

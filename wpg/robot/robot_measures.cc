@@ -54,7 +54,8 @@ RobotMeasures MeasuresOf(const RobotModel& robot) {
   RobotMeasures m{.leg_length = LegLengthOf(robot),
                   .standing_width = robot.standing_width,
                   .slowest_joint = std::numeric_limits<double>::infinity(),
-                  .support_point = robot.support_point};
+                  .support_point = robot.support_point,
+                  .sole_width = robot.sole_size.minCoeff()};
   for (const Leg& each : robot.legs) {
     for (const LegJoint& joint : each.joints) {
       m.slowest_joint = std::min(m.slowest_joint, joint.max_speed / ShareOf(joint));

@@ -20,6 +20,7 @@ struct RobotMeasures {
   /// of ℓ and RobotModel::largest_lift.
   double aside = 0.0, lift = 0.0;  ///< both [m]
   double support_point = 0.0;      ///< RobotModel::support_point [m]
+  double sole_width = 0.0;         ///< the shorter side of a sole [m]
 };
 
 /// RobotMeasures::leg_length of the left leg [m].
