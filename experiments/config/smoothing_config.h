@@ -40,6 +40,9 @@ struct SmoothingConfig {
   bool has_given = false;                ///< whether `given` names files
   GivenWalkFiles given;                  ///< of the method `given`
   MarginLimits limits;                   ///< limits and demanded margins
+  /// Acceleration that is assumed to be allowed to leg joints of which the robot file states none
+  /// [rad/s²]; none: nothing is assumed.
+  std::optional<double> assumed_acceleration;
 };
 
 /// Makes a config's methods, and the margins and costs of one's own, those that a program has.
