@@ -9,6 +9,7 @@
 #include "wpg/files/text.h"
 #include "wpg/motion/lipm.h"
 #include "wpg/nth.h"
+#include "wpg/robot/acceleration_limits.h"
 
 namespace halfstep {
 namespace {
@@ -23,7 +24,7 @@ bool IsShipped(const fs::path& robot) { return !robot.has_parent_path() && !robo
 void LeaveOutWhatIsUnknown(Experiment* experiment) {
   MarginLimits& limits = experiment->config.smoothing.limits;
   for (const MarginFamily family : AllMarginFamilies()) {
-    if (Traits(family).for_some_robots) continue;
+    if (Traits(family).may_be_absent) continue;
     if (WhyNotDemandable(family, experiment->robot).empty()) continue;
     limits.demanded_of(family) = kNotDemanded;
   }
@@ -91,6 +92,9 @@ Place LoadPlace(const ExperimentConfig& config) {
   }
   Place place;
   place.robot = LoadRobot(RobotPath(config).string());
+  if (const auto& limit = config.smoothing.assumed_acceleration) {
+    AssumeAccelerationLimits(*limit, &place.robot);
+  }
   if (const auto scene = ScenePath(config)) {
     place.scene = LoadScene(scene->string());
     // A robot is about twice as high as its CoM.

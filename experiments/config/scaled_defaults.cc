@@ -36,7 +36,8 @@ enum class Law {
   kAside,
   kDelay,
   kSupport,
-  kSole
+  kSole,
+  kTime
 };
 
 // The decimal number of three digits that is nearest: HRP-2's numbers stay what they are.
@@ -78,6 +79,8 @@ double Scaled(Law law, double hrp2, const RobotMeasures& robot) {
       return robot.support_point;
     case Law::kSole:
       return Rounded(hrp2 * robot.sole_width / kSoleWidth);
+    case Law::kTime:
+      return Rounded(hrp2 * std::sqrt(length));
   }
   return hrp2;
 }
@@ -103,6 +106,8 @@ std::string FormulaOf(Law law, const std::string& hrp2) {
       return "`support_point_m` of the robot";
     case Law::kSole:
       return "`" + hrp2 + "` · sole width/0.137 m";
+    case Law::kTime:
+      return "`" + hrp2 + "` · √(ℓ/0.705 m)";
   }
   return hrp2;
 }
@@ -141,6 +146,7 @@ std::vector<ScaledDefault> ScaledDefaults() {
       {"planner.bounding_box.spacing_m", Law::kLength},
       {"planner.bounding_box.corridor_m", Law::kLength},
       {"smoothing.margins.zmp_robot_m", Law::kSole},
+      {"smoothing.margins.double_support_s", Law::kTime},
   };
   for (const ParameterFamily family : AllParameterFamilies()) {
     for (const ParameterBoundKey& bound : Traits(family).bounds()) {

@@ -57,7 +57,8 @@ void DeclareProfile(Fields& fields, SmoothingConfig* c) {
   }
 }
 
-void DeclareLimits(Fields& fields, MarginLimits* l) {
+void DeclareLimits(Fields& fields, SmoothingConfig* c) {
+  MarginLimits* const l = &c->limits;
   fields.OptionalNumber("foot_speed_m_s", &l->foot_speed,
                         {.meaning = "of the swing sole's centre; none: no limit",
                          .unit = "m/s",
@@ -68,6 +69,20 @@ void DeclareLimits(Fields& fields, MarginLimits* l) {
       {.meaning = "of the swing sole; none: no limit", .unit = "rad/s", .min = 0.01, .max = 50});
   fields.Number("joint_speed_scale", &l->joint_speed_scale,
                 {.meaning = "fraction of the robot's joint speed limits", .min = 0.01, .max = 1});
+  fields.OptionalNumber("joint_acceleration_rad_s2", &c->assumed_acceleration,
+                        {.meaning = "assumed of the legs' joints of which the robot file states "
+                                    "none; none: nothing is assumed",
+                         .unit = "rad/s²",
+                         .min = 1e-3,
+                         .max = 1e5,
+                         .none_left_out = true});
+  fields.OptionalNumber("landing_speed_m_s", &l->landing_speed,
+                        {.meaning = "how fast the sole sinks in its last centimetre; none: no "
+                                    "limit",
+                         .unit = "m/s",
+                         .min = 0.01,
+                         .max = 20,
+                         .none_left_out = true});
 }
 
 void DeclareMargins(Fields& fields, MarginLimits* l) {
@@ -78,7 +93,8 @@ void DeclareMargins(Fields& fields, MarginLimits* l) {
         .unit = traits.unit == "1" ? "" : traits.unit.data(),
         .min = 0,
         .max = traits.most,
-        .left_out = traits.for_some_robots ? std::optional(traits.demanded) : std::nullopt};
+        .left_out = traits.may_be_absent ? std::optional(traits.demanded) : std::nullopt,
+        .none_left_out = traits.may_be_absent && traits.demanded == kNotDemanded};
     double& demanded = l->demanded_of(family);
     if (!traits.may_be_none) {
       fields.Number(traits.key.data(), &demanded, spec);
@@ -167,7 +183,7 @@ void DeclareSmoothing(Fields& fields, SmoothingConfig* c) {
   }
   DeclareProfile(fields, c);
   fields.Group("limits", {.meaning = "what the robot file does not limit"},
-               [&](Fields& f) { DeclareLimits(f, &c->limits); });
+               [&](Fields& f) { DeclareLimits(f, c); });
   fields.Group("margins", {.meaning = "demanded margins: feasible means at least this far inside"},
                [&](Fields& f) { DeclareMargins(f, &c->limits); });
 }

@@ -42,6 +42,9 @@ struct SmoothingConfig {
   GivenWalkFiles given;                  ///< of the method `given`
   std::string profile{Name(DemandProfile::kWalkable)};  ///< of which `limits` are, but for keys
   MarginLimits limits = LimitsOf(DemandProfile::kWalkable);  ///< limits and demanded margins
+  /// Acceleration that is assumed to be allowed to leg joints of which the robot file states none
+  /// [rad/s²]; none: nothing is assumed.
+  std::optional<double> assumed_acceleration;
 };
 
 /// Makes a config's methods, and the margins and costs of one's own, those that a program has.

@@ -20,7 +20,6 @@
 #include "experiments/tables/json_file.h"
 #include "experiments/tables/margin_columns.h"
 #include "opt/solvers/ending.h"
-#include "smoothing/margins/demandable.h"
 #include "smoothing/margins/family_traits.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/number_text.h"
@@ -56,22 +55,27 @@ json FamilyJson(MarginFamily family) {
   return row;
 }
 
-// Those that every robot has.
+// Those that every walk has.
 json FamiliesJson(const Methods& methods) {
   json families = json::array();
   for (const MarginFamily family : FamiliesWith(methods.own_margins())) {
-    if (!Traits(family).for_some_robots) families.push_back(FamilyJson(family));
+    if (!Traits(family).may_be_absent) families.push_back(FamilyJson(family));
   }
   return families;
 }
 
-// Adds the families that only some robots have, if this one does.
-void AddFamilies(const RobotModel& robot, json* report) {
+// Adds the families that only some walks have, if this run's have them, and names them in the
+// statement.
+void AddFamilies(const fs::path& run, json* report) {
+  const fs::path path = run / "raw" / "certificate.json";
+  if (!fs::exists(path)) return;
+  const json certificate = ReadJsonObject(path);
+  const json demanded = certificate.value("demanded", json::object());
   for (const MarginFamily family : AllMarginFamilies()) {
-    if (!Traits(family).for_some_robots || !WhyNotDemandable(family, robot).empty()) continue;
+    if (!Traits(family).may_be_absent || !demanded.contains(Name(family))) continue;
     IndexIn(&(*report)["families"], FamilyJson(family));
+    (*report)["statement"] = certificate.at("statement");
   }
-  if (StatesAccelerationLimits(robot)) (*report)["statement"] = CertificateStatement(robot);
 }
 
 // What is shown of each status.
@@ -102,7 +106,7 @@ Eigen::Vector2d MiddleOf(const fs::path& footsteps) {
 
 json CaseOf(const std::string& scenario, const fs::path& run, const RobotModel& robot,
             const Scene& scene, json* report) {
-  AddFamilies(robot, report);
+  AddFamilies(run, report);
   return {
       {"scenario", scenario},
       {"robot", IndexIn(&(*report)["robots"], RobotJson(robot))},

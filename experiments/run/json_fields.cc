@@ -26,7 +26,7 @@ class JsonWriter : public Fields {
   void OptionalNumber(const char* key, std::optional<double>* value,
                       const NumberSpec& spec) override {
     if (!value->has_value()) {
-      object_[key] = nullptr;
+      if (!spec.none_left_out) object_[key] = nullptr;
     } else if (*value != spec.left_out) {
       object_[key] = NumberOf(key, **value);
     }

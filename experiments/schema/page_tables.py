@@ -55,8 +55,8 @@ def rows_of_families(families):
         else:
             cells["scale"] = number(family["scale"])
             cells["raised"] = "yes" if family["raised"] else ""
-            cells["demanded by default"] = number(family["demanded"]) + (
-                ", or `none`" if family["may_be_none"] else "")
+            cells["demanded by default"] = "`none`" if family["demanded"] is None else (
+                number(family["demanded"]) + (", or `none`" if family["may_be_none"] else ""))
     return rows
 
 

@@ -36,7 +36,8 @@ ordered_json MarginJson(MarginFamily family) {
   ordered_json row = {{"name", traits.name},
                       {"unit", traits.unit},
                       {"scale", traits.scale},
-                      {"demanded", traits.demanded},
+                      {"demanded", traits.demanded == kNotDemanded ? ordered_json()
+                                                                   : ordered_json(traits.demanded)},
                       {"may_be_none", traits.may_be_none},
                       {"raised", traits.raised},
                       {"key", traits.key},

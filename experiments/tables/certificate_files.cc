@@ -81,6 +81,13 @@ std::string CertificateJson(const Experiment& experiment, const CertifiedFeasibi
     statements[std::string(Name(family))] = test.CountOf(family);
   }
   const RobotModel& robot = experiment.robot;
+  ordered_json of_limits = {{"foot_speed_m_s", OrNull(limits.foot_speed)},
+                            {"foot_yaw_rate_rad_s", OrNull(limits.foot_yaw_rate)},
+                            {"joint_speed_scale", limits.joint_speed_scale}};
+  if (robot.assumed_acceleration) {
+    of_limits["joint_acceleration_rad_s2"] = robot.assumed_acceleration->limit;
+  }
+  if (limits.landing_speed) of_limits["landing_speed_m_s"] = *limits.landing_speed;
   const bool certified = walk.answer.verdict == Verdict::kFeasible;
   const auto scene = ScenePath(named);
   const ordered_json json = {
@@ -88,14 +95,11 @@ std::string CertificateJson(const Experiment& experiment, const CertifiedFeasibi
       {"verdict", VerdictName(walk.answer.verdict)},
       {"message", certified ? "every demanded margin is kept at all times"
                             : AnswerWords(test.evaluator(), test.options(), walk.answer)},
-      {"statement", CertificateStatement(robot)},
+      {"statement", CertificateStatement(robot, limits)},
       {"duration_s", walk.duration},
       {"resolution_s", test.options().resolution},
       {"demanded", demanded},
-      {"limits",
-       {{"foot_speed_m_s", OrNull(limits.foot_speed)},
-        {"foot_yaw_rate_rad_s", OrNull(limits.foot_yaw_rate)},
-        {"joint_speed_scale", limits.joint_speed_scale}}},
+      {"limits", of_limits},
       {"statements", statements},
       {"not_covered", NotCoveredJson(NotCoveredBy(robot, experiment.scene, limits))},
       {"robot", std::filesystem::proximate(RobotPath(named), run_folder).string()},

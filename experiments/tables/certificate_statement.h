@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "smoothing/margins/margin.h"
 #include "wpg/robot/acceleration_limits.h"
 
 namespace halfstep {
@@ -30,14 +31,33 @@ inline constexpr char kCertificateStatement[] =
     "scene are as their files describe them, that a controller tracks the motion, and any "
     "dynamics beyond these two ZMPs, torques and friction.";
 
-/// The same for a robot: where its file states limits of joint accelerations, these are named, too.
-inline std::string CertificateStatement(const RobotModel& robot) {
+/// The same for a robot and what is demanded of its walks: where its joint accelerations have
+/// limits and where families that a config has to ask for are demanded, these are named, too.
+inline std::string CertificateStatement(const RobotModel& robot, bool double_support,
+                                        bool landing_speed) {
   std::string statement = kCertificateStatement;
-  if (StatesAccelerationLimits(robot)) {
-    statement.insert(statement.find("clearance between"),
-                     "joint accelerations where the robot file limits them, ");
+  const auto insert = [&statement](const char* before, const char* words) {
+    statement.insert(statement.find(before), words);
+  };
+  if (HasAccelerationLimits(robot)) {
+    insert("clearance between", robot.assumed_acceleration
+                                    ? "joint accelerations, whose limits are assumed where the "
+                                      "robot file states none, "
+                                    : "joint accelerations where the robot file limits them, ");
+  }
+  if (landing_speed) {
+    insert("ZMP of the linear", "how fast the swing foot sinks in its last centimetre, ");
+  }
+  if (double_support) {
+    insert(") is at least", ", how long the ZMP of each half-step goes from foot to foot");
   }
   return statement;
+}
+/// By its limits and demands.
+inline std::string CertificateStatement(const RobotModel& robot, const MarginLimits& limits) {
+  return CertificateStatement(robot,
+                              limits.demanded_of(MarginFamily::kDoubleSupport) != kNotDemanded,
+                              limits.landing_speed.has_value());
 }
 
 }  // namespace halfstep

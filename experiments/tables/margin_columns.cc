@@ -19,7 +19,7 @@ constexpr std::array kFamilies = {MarginFamily::kZmp,        MarginFamily::kJoin
 }  // namespace
 
 std::span<const MarginFamily> FamiliesOfTrajectory(const RobotModel& robot) {
-  return std::span(kFamilies).first(kFamilies.size() - (StatesAccelerationLimits(robot) ? 0 : 1));
+  return std::span(kFamilies).first(kFamilies.size() - (HasAccelerationLimits(robot) ? 0 : 1));
 }
 
 std::optional<std::string> TrajectoryColumnOf(MarginFamily family) {

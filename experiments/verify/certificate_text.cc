@@ -31,7 +31,8 @@ std::string UnknownKeyOf(const JsonMember& root) {
         UnknownKey(root.Object("demanded"), "demanded.", families),
         UnknownKey(root.Object("statements"), "statements.", families),
         UnknownKey(root.Object("limits"), "limits.",
-                   {"foot_speed_m_s", "foot_yaw_rate_rad_s", "joint_speed_scale"}),
+                   {"foot_speed_m_s", "foot_yaw_rate_rad_s", "joint_speed_scale",
+                    "joint_acceleration_rad_s2", "landing_speed_m_s"}),
         UnknownKey(root.Object("sha256"), "sha256.",
                    {"trajectory.csv", "certificate.csv", "robot", "scene"})}) {
     if (!unknown.empty()) return unknown;
@@ -79,6 +80,11 @@ CertificateText ReadCertificateJson(const std::string& path, const std::string& 
   c.foot_speed = limits.NumberOrNull("foot_speed_m_s");
   c.foot_yaw_rate = limits.NumberOrNull("foot_yaw_rate_rad_s");
   c.joint_speed_scale = limits.Number("joint_speed_scale");
+  const auto if_there = [&limits](const char* key) {
+    return limits.object().contains(key) ? limits.NumberOrNull(key) : std::nullopt;
+  };
+  c.joint_acceleration = if_there("joint_acceleration_rad_s2");
+  c.landing_speed = if_there("landing_speed_m_s");
   c.robot = root.String("robot");
   c.scene = root.String("scene");
   const JsonMember hashes = root.Object("sha256");

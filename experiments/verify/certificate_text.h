@@ -28,18 +28,34 @@ enum Family : int {
   kTorque,
   kFriction,
   kJointAcceleration,
+  kDoubleSupport,
+  kLandingSpeed,
   kOwn  ///< what the program that made the run registered; its formula is not known here
 };
 constexpr int kNumFamilies = kOwn + 1;  ///< how many families a certificate has
 /// Their names in certificate.csv and certificate.json, and their units.
-constexpr std::array<const char*, kNumFamilies> kFamilyNames = {
-    "floor",       "foot_speed",     "foot_yaw_rate",      "zmp",    "reach",   "joint",
-    "joint_speed", "self_clearance", "clearance",          "ground", "no_step", "zmp_robot",
-    "torque",      "friction",       "joint_acceleration", "own"};
+constexpr std::array<const char*, kNumFamilies> kFamilyNames = {"floor",
+                                                                "foot_speed",
+                                                                "foot_yaw_rate",
+                                                                "zmp",
+                                                                "reach",
+                                                                "joint",
+                                                                "joint_speed",
+                                                                "self_clearance",
+                                                                "clearance",
+                                                                "ground",
+                                                                "no_step",
+                                                                "zmp_robot",
+                                                                "torque",
+                                                                "friction",
+                                                                "joint_acceleration",
+                                                                "double_support",
+                                                                "landing_speed",
+                                                                "own"};
 /// Of the families' margins.
-constexpr std::array<const char*, kNumFamilies> kUnits = {"m",     "m/s", "rad/s",  "m", "m", "rad",
-                                                          "rad/s", "m",   "m",      "m", "m", "m",
-                                                          "N m",   "1",   "rad/s²", "1"};
+constexpr std::array<const char*, kNumFamilies> kUnits = {
+    "m", "m/s", "rad/s", "m",   "m", "rad",    "rad/s", "m",   "m",
+    "m", "m",   "m",     "N m", "1", "rad/s²", "s",     "m/s", "1"};
 static_assert(std::string_view(kFamilyNames.back()) == "own" && kUnits.back() != nullptr,
               "a family lacks its name or its unit");
 
@@ -51,10 +67,17 @@ constexpr bool IsOfDynamics(Family family) {
   return family == kZmpRobot || family == kTorque || family == kFriction;
 }
 /// Whether only certificates of some robots or programs have a family.
-constexpr bool MayBeAbsent(Family family) { return family == kJointAcceleration || family == kOwn; }
+constexpr bool MayBeAbsent(Family family) {
+  return family == kJointAcceleration || family == kDoubleSupport || family == kLandingSpeed ||
+         family == kOwn;
+}
 /// Whether nothing may be demanded of a family.
 constexpr bool MayBeLeftOut(Family family) {
-  return IsOfDynamics(family) || family == kJointAcceleration;
+  return IsOfDynamics(family) || family == kJointAcceleration || family == kDoubleSupport;
+}
+/// Whether a family is about the foot in the air, and about none while both stand.
+constexpr bool IsOfSwingFoot(Family family) {
+  return family <= kFootYawRate || family == kLandingSpeed;
 }
 
 /// A row of certificate.csv.
@@ -85,6 +108,8 @@ struct CertificateText {
   std::vector<NotCoveredItem> not_covered;          ///< of which nothing is claimed
   std::optional<double> foot_speed, foot_yaw_rate;  ///< [m/s], [rad/s]; none: no limit.
   double joint_speed_scale = 1;                     ///< fraction of the robot's limits
+  std::optional<double> landing_speed;              ///< [m/s]; none: no limit
+  std::optional<double> joint_acceleration;         ///< assumed [rad/s²]; none: nothing is
   std::string robot, scene;  ///< paths relative to the run folder; scene: or "none".
   /// SHA-256 as hexadecimal text.
   std::string trajectory_hash, certificate_hash, robot_hash, scene_hash;

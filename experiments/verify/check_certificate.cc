@@ -37,22 +37,26 @@ long CountOf(Family family, const RobotModel& robot) {
     case kZmpRobot:
     case kFriction:
       return 1;
+    case kDoubleSupport:
+    case kLandingSpeed:
     case kOwn:
       break;
   }
   return 0;
 }
 
-// Of a family that is not known here what the certificate says.
+// Of families that are there on request; of one that is not known here what the certificate says.
 long CountOf(Family family, const RobotModel& robot, const CertificateText& certificate) {
+  if (family == kDoubleSupport) return certificate.demanded[kDoubleSupport] != kNotDemanded;
+  if (family == kLandingSpeed) return certificate.landing_speed.has_value();
   return family == kOwn ? certificate.statements[kOwn] : CountOf(family, robot);
 }
 
 // What is wrong with a row by itself; "": nothing.
 std::string Fault(const ClaimRow& row, const CertificateText& certificate) {
   const bool may_watch_nothing =
-      row.family == kFloor || row.family == kFootSpeed || row.family == kFootYawRate ||
-      row.family == kGround || row.family == kNoStep ||  // a foot's bodies; a foot in the air
+      IsOfSwingFoot(row.family) || row.family == kDoubleSupport || row.family == kGround ||
+      row.family == kNoStep ||  // a foot's bodies; a foot in the air
       row.family == kOwn || certificate.demanded[row.family] == kNotDemanded;
   if (!std::isfinite(row.begin) || !std::isfinite(row.end) || !std::isfinite(row.bound) ||
       std::isnan(row.demanded) || std::isnan(row.margin)) {
@@ -106,7 +110,9 @@ void CheckHead(const CertificateText& certificate, const RobotModel& robot, doub
     findings->Disagree("certificate.json: " + Quote(certificate.unknown) +
                        " is no key that is known here, so nothing can be said of it");
   }
-  if (certificate.statement != CertificateStatement(robot)) {
+  if (certificate.statement !=
+      CertificateStatement(robot, certificate.demanded[kDoubleSupport] != kNotDemanded,
+                           certificate.landing_speed.has_value())) {
     findings->Disagree("the certificate's statement is not the one that is verified");
   }
   if (certificate.duration != end) {
@@ -117,7 +123,8 @@ void CheckHead(const CertificateText& certificate, const RobotModel& robot, doub
   if (!(scale > 0 && scale <= 1)) {
     findings->Disagree(Formatted("joint_speed_scale is %.9g (valid: above 0, at most 1)", scale));
   }
-  for (const auto& limit : {certificate.foot_speed, certificate.foot_yaw_rate}) {
+  for (const auto& limit :
+       {certificate.foot_speed, certificate.foot_yaw_rate, certificate.landing_speed}) {
     if (limit && !(*limit > 0)) findings->Disagree(Formatted("a foot's limit is %.9g", *limit));
   }
   for (const double demanded : certificate.demanded) {
@@ -177,10 +184,12 @@ void CheckArithmetic(const CertificateText& certificate, const std::vector<Claim
 }
 
 void CheckAgainstConfig(const CertificateText& certificate, const RobotModel& robot,
-                        const MarginLimits& config, Findings* findings) {
+                        const SmoothingConfig& smoothing, Findings* findings) {
+  const MarginLimits& config = smoothing.limits;
   for (const NamedDemand& of_config : NamedDemands(config)) {
     const std::optional<Family> family = FamilyNamed(of_config.family, findings);
     if (!family || (family == kJointAcceleration && !LimitsAccelerations(robot))) continue;
+    if (family == kLandingSpeed && !config.landing_speed) continue;
     const double claimed = certificate.demanded[*family];
     if (claimed < of_config.demanded) {
       findings->Disagree(Formatted("%s: the certificate demands %.9g, config.yaml %.9g",
@@ -196,6 +205,9 @@ void CheckAgainstConfig(const CertificateText& certificate, const RobotModel& ro
   };
   looser("foot_speed_m_s", certificate.foot_speed, config.foot_speed);
   looser("foot_yaw_rate_rad_s", certificate.foot_yaw_rate, config.foot_yaw_rate);
+  looser("landing_speed_m_s", certificate.landing_speed, config.landing_speed);
+  looser("joint_acceleration_rad_s2", certificate.joint_acceleration,
+         robot.assumed_acceleration ? smoothing.assumed_acceleration : std::nullopt);
   looser("joint_speed_scale", certificate.joint_speed_scale, config.joint_speed_scale);
   findings->Say("config.yaml: demands no more and allows no less than the certificate");
 }

@@ -23,9 +23,9 @@ void CheckArithmetic(const CertificateText& certificate, const std::vector<Claim
 
 /// Whether the certificate demands at least as much as the run's config does, defaults included,
 /// and limits speeds at least as tightly. A family that the config knows and verify does not is a
-/// disagreement. What the config demands of joint accelerations counts where the robot file limits
-/// them.
+/// disagreement. What the config demands of joint accelerations counts where these are limited;
+/// `robot` has the limits that the config assumes.
 void CheckAgainstConfig(const CertificateText& certificate, const RobotModel& robot,
-                        const MarginLimits& config, Findings* findings);
+                        const SmoothingConfig& smoothing, Findings* findings);
 
 }  // namespace halfstep::verify

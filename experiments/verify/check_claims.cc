@@ -6,6 +6,7 @@
 
 #include "experiments/verify/check_rows.h"
 #include "experiments/verify/claim_subjects.h"
+#include "experiments/verify/double_support.h"
 #include "experiments/verify/floor_distances.h"
 #include "experiments/verify/joint_accelerations.h"
 #include "experiments/verify/tolerances.h"
@@ -34,6 +35,7 @@ class Claims {
     if (NamesSoles(row.family) && !BearsAsNamed(row)) {
       return Quote(row.subject) + " does not bear the robot there";
     }
+    if (row.family == kDoubleSupport) return FaultOfShift(walk_, row, subject.first);
     if (row.margin == kNoLimit) {
       if (MayBeLeftOut(row.family)) {
         if (certificate_.demanded[row.family] == kNotDemanded) return "";
@@ -41,14 +43,14 @@ class Claims {
       }
       if (row.family == kGround || row.family == kNoStep) return FaultOfNothing(row);
       const std::string fault = FaultOfUnwatched(row);
-      return fault.empty() && subject.first >= 0 && row.family <= kFootYawRate
+      return fault.empty() && subject.first >= 0 && IsOfSwingFoot(row.family)
                  ? "a foot is named, and none has a margin"
                  : fault;
     }
     if (row.family == kClearance || row.family == kSelfClearance) {
       return FaultOfDistance(row, subject);
     }
-    if (row.family <= kFootYawRate && subject.first < 0) return "no foot is named";
+    if (IsOfSwingFoot(row.family) && subject.first < 0) return "no foot is named";
     if (row.family == kGround) {
       if (subject.first < 0) return "no body is named";
       if (verify::IsOnFoot(Nth(robot_.bodies, subject.first))) {
@@ -124,6 +126,12 @@ class Claims {
       case kFootYawRate:
         return certificate_.foot_yaw_rate.value_or(kNoLimit) -
                std::abs(walk_.At(t).first[foot + 3]);
+      case kLandingSpeed: {
+        const WalkInstant at = walk_.At(t);
+        return LandingLimit(certificate_.landing_speed.value_or(kNoLimit),
+                            walk_.floor().Above(at.value[foot + 2])) +
+               at.first[foot + 2];
+      }
       case kZmp:
         return ZmpMargin(walk_.Row(t), robot_);
       case kZmpRobot:
@@ -156,6 +164,7 @@ class Claims {
       }
       case kSelfClearance:
       case kClearance:
+      case kDoubleSupport:
       case kOwn:
         break;
     }

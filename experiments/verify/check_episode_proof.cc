@@ -77,6 +77,7 @@ CertificateText DemandsOf(const MarginLimits& limits, Findings* findings) {
   demands.foot_speed = limits.foot_speed;
   demands.foot_yaw_rate = limits.foot_yaw_rate;
   demands.joint_speed_scale = limits.joint_speed_scale;
+  demands.landing_speed = limits.landing_speed;
   return demands;
 }
 

@@ -32,7 +32,8 @@ std::vector<NotCovered> FindNotCovered(const CertificateText& certificate, const
   std::vector<NotCovered> found;
   for (size_t f = 0; f < kNumFamilies; ++f) {
     const auto family = static_cast<Family>(f);
-    if (family == kOwn) continue;  // where it is there something is demanded of it
+    // Where these are there something is demanded of them, or a limit is asked for.
+    if (family == kOwn || family == kDoubleSupport || family == kLandingSpeed) continue;
     const std::string unknown = WhyUnknown(family, robot);
     if (!unknown.empty() || certificate.demanded[f] == kNotDemanded) {
       found.push_back(
@@ -44,6 +45,9 @@ std::vector<NotCovered> FindNotCovered(const CertificateText& certificate, const
   if (WhyUnknown(kFriction, robot).empty() && certificate.demanded[kFriction] != kNotDemanded &&
       scene.friction == kAssumedFriction) {
     found.push_back(AssumedFriction(scene.friction));
+  }
+  if (robot.assumed_acceleration && certificate.demanded[kJointAcceleration] != kNotDemanded) {
+    found.push_back(AssumedAccelerations(*robot.assumed_acceleration));
   }
   const std::vector<NotCovered> of_robot = NotCoveredOf(robot);
   found.insert(found.end(), of_robot.begin(), of_robot.end());

@@ -6,6 +6,7 @@
 #include "experiments/verify/check_clearance.h"
 #include "experiments/verify/check_rows.h"
 #include "experiments/verify/check_walk.h"
+#include "experiments/verify/double_support.h"
 #include "experiments/verify/joint_accelerations.h"
 #include "experiments/verify/tolerances.h"
 
@@ -15,11 +16,13 @@ void CheckPlayed(const PlayedMotion& motion, const DescribedWalk& walk,
                  Findings* findings) {
   const auto check = [&](const PlayedMotion& of, Findings* into) {
     CheckRowMargins(of, walk.floor(), certificate, tolerance, into);
+    CheckLanding(of, walk.floor(), certificate, into);
     CheckDynamics(of.rows(), walk, distances->scene().friction, certificate, into);
     CheckJointAccelerations(of.rows(), walk, certificate, into);
     CheckFloor(of, walk.floor(), distances->scene(), certificate, tolerance, into);
     CheckClearances(of, certificate, tolerance, distances, into);
   };
+  CheckDoubleSupport(walk, certificate, findings);
   Findings played;
   check(motion, &played);
   if (played.disagreements() == 0) {

@@ -65,6 +65,13 @@ double FootYawRate(const PlayedMotion& motion, size_t i, int side) {
   return std::abs(b.soles[Of(side)][3] - a.soles[Of(side)][3]) / (b.t - a.t);
 }
 
+double LandingMargin(const PlayedMotion& motion, size_t i, int side, const FlatFloor& floor,
+                     double limit) {
+  const PlayedRow &a = motion.rows()[i], &b = motion.rows()[i + 1];
+  const double from = a.soles[Of(side)][2], to = b.soles[Of(side)][2];
+  return LandingLimit(limit, floor.Above(std::max(from, to))) - (from - to) / (b.t - a.t);
+}
+
 SolePolygon PolygonOf(const PlayedRow& row, const RobotModel& robot) {
   if (row.support == Support::kBoth) return {{row.X_WS(0), row.X_WS(1)}, robot.sole_size};
   return {{row.X_WS(static_cast<int>(row.support))}, robot.sole_size};
@@ -221,6 +228,22 @@ void CheckRowMargins(const PlayedMotion& motion, const FlatFloor& floor,
                              &foot_yaw_rate, &zmp, &change}) {
     check->Conclude(findings);
   }
+}
+
+void CheckLanding(const PlayedMotion& motion, const FlatFloor& floor,
+                  const CertificateText& certificate, Findings* findings) {
+  if (!certificate.landing_speed) return;
+  const std::vector<PlayedRow>& rows = motion.rows();
+  Check landing("landing speed", kUnits[kLandingSpeed], certificate.demanded[kLandingSpeed],
+                Tolerances(motion.robot()).foot_speed);
+  for (size_t i = 0; i + 1 < rows.size(); ++i) {
+    const double rounding = 1e-12 / (rows[i + 1].t - rows[i].t);
+    for (int side = 0; side < 2; ++side) {
+      landing.Add(rounding + LandingMargin(motion, i, side, floor, *certificate.landing_speed),
+                  [&] { return std::string(SideName(side)) + " leg " + At(rows[i].t); });
+    }
+  }
+  landing.Conclude(findings);
 }
 
 void CheckDynamics(const std::vector<PlayedRow>& rows, const DescribedWalk& walk, double friction,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <limits>
 
 #include "experiments/verify/certificate_text.h"
@@ -31,6 +32,9 @@ void CheckConsistency(const PlayedMotion& motion, const DescribedWalk& walk, Fin
 /// VerifyOptions.
 void CheckRowMargins(const PlayedMotion& motion, const FlatFloor& floor,
                      const CertificateText& certificate, double tolerance, Findings* findings);
+/// The same of how fast soles sink near the floor; nothing is said where there is no limit.
+void CheckLanding(const PlayedMotion& motion, const FlatFloor& floor,
+                  const CertificateText& certificate, Findings* findings);
 
 /// Whether the whole robot's ZMP, its joint torques and the friction that it needs (WalkDynamics)
 /// keep what is demanded at the rows' times, by the walk on a floor of that friction coefficient;
@@ -61,6 +65,14 @@ double JointSpeedMargin(const PlayedMotion& motion, size_t i, int side, int join
 double FootSpeed(const PlayedMotion& motion, size_t i, int side);
 /// Of the sole between row i and the next.
 double FootYawRate(const PlayedMotion& motion, size_t i, int side);
+/// How fast a sole may sink at a height [m] where it may at `limit` [m/s] in its last centimetre.
+/// Source: smoothing/README.md, "Landing".
+inline double LandingLimit(double limit, double height) {
+  return limit * std::max(1.0, height / 0.01);
+}
+/// That at the higher one of row i and the next, less how fast the sole sinks between them [m/s].
+double LandingMargin(const PlayedMotion& motion, size_t i, int side, const FlatFloor& floor,
+                     double limit);
 /// Whether a sole moves horizontally or turns between row i and the next one.
 bool MovesHorizontally(const PlayedMotion& motion, size_t i, int side);
 

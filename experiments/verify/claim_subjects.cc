@@ -1,14 +1,33 @@
 #include "experiments/verify/claim_subjects.h"
 
+#include <charconv>
+#include <string_view>
+
 #include "wpg/nth.h"
 
 namespace halfstep::verify {
+namespace {
+
+// "half-step 3": 2.
+std::optional<ClaimSubject> HalfStepNamed(const std::string& name) {
+  constexpr std::string_view kBefore = "half-step ";
+  if (!name.starts_with(kBefore)) return std::nullopt;
+  int number = 0;
+  const char* const end = name.data() + name.size();
+  const auto [rest, error] = std::from_chars(name.data() + kBefore.size(), end, number);
+  if (error != std::errc() || rest != end || number < 1) return std::nullopt;
+  return ClaimSubject{number - 1, -1};
+}
+
+}  // namespace
 
 ClaimSubjects::ClaimSubjects(const RobotModel& robot, const Distances& distances) {
   auto& subjects = subjects_;
   for (int s = 0; s < 2; ++s) {
     const std::string side = s == 0 ? "left" : "right";
-    for (Family f : {kFloor, kFootSpeed, kFootYawRate}) subjects[f][side + " foot"] = {s, 0};
+    for (Family f : {kFloor, kFootSpeed, kFootYawRate, kLandingSpeed}) {
+      subjects[f][side + " foot"] = {s, 0};
+    }
     subjects[kReach][side + " leg"] = {s, 0};
     for (int j = 0; j < 6; ++j) {
       const std::string& name = Nth(Nth(robot.legs, s).joints, j).name;
@@ -21,7 +40,10 @@ ClaimSubjects::ClaimSubjects(const RobotModel& robot, const Distances& distances
           s, static_cast<int>(a)};
     }
   }
-  for (Family f : {kFloor, kFootSpeed, kFootYawRate}) subjects[f]["both feet"] = {};
+  for (Family f : {kFloor, kFootSpeed, kFootYawRate, kLandingSpeed}) {
+    subjects[f]["both feet"] = {};
+  }
+  subjects[kDoubleSupport]["no half-step"] = {};
   subjects[kGround]["robot"] = {};
   for (Family f : {kZmp, kZmpRobot, kFriction}) {
     subjects[f]["both soles"] = subjects[f]["support sole"] = {};
@@ -43,6 +65,7 @@ ClaimSubjects::ClaimSubjects(const RobotModel& robot, const Distances& distances
 std::optional<ClaimSubject> ClaimSubjects::Find(Family family, const std::string& name) const {
   const auto found = subjects_[family].find(name);
   if (found != subjects_[family].end()) return found->second;
+  if (family == kDoubleSupport) return HalfStepNamed(name);
   if (family != kClearance) return std::nullopt;
   for (size_t b = 0; b < bodies_.size(); ++b) {
     const std::string before = bodies_[b] + " - ";

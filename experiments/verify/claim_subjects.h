@@ -13,7 +13,7 @@
 namespace halfstep::verify {
 
 /// What a row of a certificate is about, as indices: a side; a side and a joint; a body and an
-/// obstacle; two bodies; a foot and an area. −1: the row names none.
+/// obstacle; two bodies; a foot and an area; a half-step. −1: the row names none.
 struct ClaimSubject {
   int first = -1, second = -1;  ///< −1: none
 };

@@ -45,6 +45,11 @@ std::pair<double, double> DescribedWalk::WindowOf(int half_step) const {
   return {piece.start, piece.start + piece.motion.duration()};
 }
 
+std::pair<double, double> DescribedWalk::ShiftOf(int half_step) const {
+  const Piece& piece = Nth(pieces_, half_step);
+  return {piece.start + piece.motion.t1(), piece.start + piece.motion.t2()};
+}
+
 WalkInstant DescribedWalk::At(double t) const {
   WalkInstant at;
   at.value = pieces_.front().motion.start();

@@ -54,6 +54,8 @@ class DescribedWalk {
   bool IsUp(int half_step) const { return Nth(pieces_, half_step).motion.half_step().up; }
   /// When a half-step, counted from 0, begins and ends [s].
   std::pair<double, double> WindowOf(int half_step) const;
+  /// When the ZMP of a half-step, counted from 0, goes from foot to foot [s].
+  std::pair<double, double> ShiftOf(int half_step) const;
   /// Duration of the walk [s].
   double end() const { return pieces_.back().start + pieces_.back().motion.duration(); }
   /// All quantities and two time derivatives at t [s], in W.

@@ -35,4 +35,18 @@ bool LimitsAccelerations(const RobotModel& robot) {
   });
 }
 
+RobotModel WithAccelerations(RobotModel robot, const std::optional<double>& assumed) {
+  if (!assumed) return robot;
+  AssumedAcceleration of_joints{.limit = *assumed};
+  for (Leg& leg : robot.legs) {
+    for (LegJoint& joint : leg.joints) {
+      if (std::isfinite(joint.max_acceleration)) continue;
+      joint.max_acceleration = *assumed;
+      ++of_joints.joints;
+    }
+  }
+  if (of_joints.joints > 0) robot.assumed_acceleration = of_joints;
+  return robot;
+}
+
 }  // namespace halfstep::verify

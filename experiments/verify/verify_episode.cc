@@ -22,6 +22,7 @@
 #include "experiments/verify/episode_text.h"
 #include "experiments/verify/found_inputs.h"
 #include "experiments/verify/given_files.h"
+#include "experiments/verify/robot_numbers.h"
 #include "experiments/verify/tolerances.h"
 #include "wpg/files/sha256.h"
 
@@ -69,6 +70,8 @@ Place PlaceOf(const VerifyOptions& options, const LiveConfig& config,
                              .sha256 = manifest.scene_sha256})
                       .input;
   }
+  place.robot =
+      WithAccelerations(std::move(place.robot), experiment.smoothing.assumed_acceleration);
   place.scene = WithSpareBoxes(std::move(place.scene), config.live);
   return place;
 }

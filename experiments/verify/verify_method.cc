@@ -28,6 +28,7 @@
 #include "experiments/verify/found_inputs.h"
 #include "experiments/verify/given_files.h"
 #include "experiments/verify/own_names.h"
+#include "experiments/verify/robot_numbers.h"
 #include "experiments/verify/tolerances.h"
 #include "smoothing/methods/dichotomy.h"
 #include "wpg/files/input_error.h"
@@ -237,7 +238,9 @@ VerifiedStatement VerifyMethod(const VerifyOptions& options, const RunManifest& 
                              .sha256 = manifest.scene_sha256};
   const ExperimentConfig config = ReadConfig(options, files.PathInRun("config.yaml"), config_bytes,
                                              of_robot, of_scene, findings);
-  const auto [robot, scene] = InputsOf(options, config, manifest, certificate, of_robot, findings);
+  const auto [of_files, scene] =
+      InputsOf(options, config, manifest, certificate, of_robot, findings);
+  const RobotModel robot = WithAccelerations(of_files, certificate.joint_acceleration);
 
   CheckHash("trajectory.csv", trajectory, certificate.trajectory_hash, findings);
   CheckHash("certificate.csv", claims, certificate.certificate_hash, findings);
@@ -252,7 +255,8 @@ VerifiedStatement VerifyMethod(const VerifyOptions& options, const RunManifest& 
   findings->Say(Formatted("SHA-256: trajectory, certificate, %zu robot files, %zu scene files",
                           robot.files.size(), scene.files.size()));
   CheckFiles(options.run, folder, manifest, findings);
-  CheckAgainstConfig(certificate, robot, config.smoothing.limits, findings);
+  const RobotModel by_config = WithAccelerations(of_files, config.smoothing.assumed_acceleration);
+  CheckAgainstConfig(certificate, by_config, config.smoothing, findings);
   CheckDemandOfStopBranches(config.smoothing.stop_branches, manifest.acceptance, findings);
   const auto iterations =
       !files.Has("iterates.csv")
@@ -270,7 +274,7 @@ VerifiedStatement VerifyMethod(const VerifyOptions& options, const RunManifest& 
   const std::vector<NotCovered> not_covered = FindNotCovered(certificate, robot, scene);
   CheckNotCovered("certificate.json", certificate.not_covered, not_covered, findings);
   CheckNotCovered("manifest.json", manifest.not_covered,
-                  FindNotCovered(DemandsOf(config.smoothing.limits, findings), robot, scene),
+                  FindNotCovered(DemandsOf(config.smoothing.limits, findings), by_config, scene),
                   findings);
   const std::optional<DescribedWalk> walk =
       WalkOf(files, config, robot, manifest.MethodOf(folder), findings);

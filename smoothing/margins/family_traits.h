@@ -53,20 +53,27 @@ inline std::string AlwaysDemandable(const RobotModel&) { return ""; }
 /// Of families that need the masses of all links.
 inline std::string NeedsMasses(const RobotModel& robot) { return robot.masses.fault; }
 
-/// What a family assumes of a scene that does not say it, as a certificate lists it.
-using Assumption = std::optional<NotCovered> (*)(const Scene& scene);
+/// What a family assumes where robot or scene do not say it, as a certificate lists it.
+using Assumption = std::optional<NotCovered> (*)(const RobotModel& robot, const Scene& scene);
 /// Of families that assume nothing.
-inline std::optional<NotCovered> AssumesNothing(const Scene&) { return std::nullopt; }
+inline std::optional<NotCovered> AssumesNothing(const RobotModel&, const Scene&) {
+  return std::nullopt;
+}
 
 /// What a certificate does not cover of a family.
 struct FamilyCoverage {
   DemandFault why_not_demandable = nullptr;  ///< of a robot
   /// The limit without which every margin is +∞, where a config may say that there is none.
   std::optional<double> MarginLimits::*limit = nullptr;
-  Assumption assumes = AssumesNothing;  ///< of a scene
+  Assumption assumes = AssumesNothing;  ///< of robot and scene
+  /// Whether a config has to ask for it, so that it is not missed where none does.
+  bool on_request = false;
 };
 /// That of families that every robot, config and scene has all for.
 inline constexpr FamilyCoverage kAlwaysCovered = {.why_not_demandable = AlwaysDemandable};
+/// That of families that every robot has, and a config has to ask for.
+inline constexpr FamilyCoverage kCoveredOnRequest = {.why_not_demandable = AlwaysDemandable,
+                                                     .on_request = true};
 /// That of families that need the masses of all links.
 inline constexpr FamilyCoverage kCoveredWithMasses = {.why_not_demandable = NeedsMasses};
 
@@ -97,9 +104,9 @@ struct FamilyTraits {
   std::optional<MarginFamily> row;
   bool may_be_none = false;  ///< whether it can be left out: then nothing is demanded of it
   double most = 0.5;         ///< that may be demanded [its unit]
-  /// Whether only some robots have it (MarginStatements::present): then a config that is written
-  /// back has its key only where something else than `demanded` is demanded.
-  bool for_some_robots = false;
+  /// Whether some robots or configs do not have it (MarginStatements::present): then a config that
+  /// is written back has its key only where something else than `demanded` is demanded.
+  bool may_be_absent = false;
   Untold untold = kNeedsLegs;  ///< where it is −∞
 };
 

@@ -15,7 +15,7 @@ std::optional<FootFriction> FrictionAt(Instant* at) {
   return FootFriction::Of(*dynamics, at->support());
 }
 
-std::optional<NotCovered> SceneWithoutFriction(const Scene& scene) {
+std::optional<NotCovered> SceneWithoutFriction(const RobotModel&, const Scene& scene) {
   if (scene.friction != Scene{}.friction) return std::nullopt;
   return AssumedFriction(scene.friction);
 }

@@ -14,8 +14,13 @@ namespace halfstep {
 namespace {
 
 std::string StatesNoLimits(const RobotModel& robot) {
-  if (StatesAccelerationLimits(robot)) return "";
+  if (HasAccelerationLimits(robot)) return "";
   return "the robot file states no limits (`acceleration_limits_rad_s2`)";
+}
+
+std::optional<NotCovered> AssumedLimits(const RobotModel& robot, const Scene&) {
+  if (!robot.assumed_acceleration) return std::nullopt;
+  return AssumedAccelerations(*robot.assumed_acceleration);
 }
 
 // ∂q̈/∂parameter along each parameter.
@@ -30,9 +35,9 @@ std::vector<ByLegs> AccelerationSlopes(Instant* at, SlackSink* rows) {
   return slopes;
 }
 
-// Limit − |q̈| of a leg joint [rad/s²]; +∞ for a joint of which the robot file states no limit; −∞
+// Limit − |q̈| of a leg joint [rad/s²]; +∞ for a joint of which no limit is stated or assumed; −∞
 // when a leg does not reach or is stretched to the singularity. Subject: 6·Index(Side) + joint.
-// Present where the robot file states a limit of any leg joint; where nothing is demanded
+// Present where the robot has a limit of any leg joint; where nothing is demanded
 // (kNotDemanded) it has no rows, and its proofs say nothing. Masses need not be known. Source:
 // wpg/README.md, "Dynamics of the whole robot"; smoothing/README.md, "Joint accelerations between
 // instants".
@@ -44,13 +49,14 @@ class JointAccelerationMargin final : public JointSizeFamily<JointAccelerationMa
       .unit = "rad/s²",
       .key = "joint_acceleration_rad_s2",
       .meaning =
-          "inside the acceleration limits of the legs' joints, where the robot file states these; "
-          "none: not demanded",
+          "inside the acceleration limits of the legs' joints, where the robot file states these "
+          "or "
+          "`smoothing.limits` assumes them; none: not demanded",
       .remedy =
           "a longer `half_step.duration_s`, shorter steps, a lower `half_step.via_height_m`; "
           "`acceleration_limits_rad_s2` of the robot file says what the joints are allowed",
       .sentence = kOfALimit,
-      .coverage = {.why_not_demandable = StatesNoLimits},
+      .coverage = {.why_not_demandable = StatesNoLimits, .assumes = AssumedLimits},
       .scope = MarginScope::kRobot,
       .scale = 5.0,
       .demanded = 0.0,
@@ -60,13 +66,13 @@ class JointAccelerationMargin final : public JointSizeFamily<JointAccelerationMa
       .row = MarginFamily::kJointSpeed,
       .may_be_none = true,
       .most = 500.0,
-      .for_some_robots = true,
+      .may_be_absent = true,
   };
 
   explicit JointAccelerationMargin(const MarginPlace& place)
-      : JointSizeFamily(kTraits, place), present_(StatesAccelerationLimits(place.robot)) {}
+      : JointSizeFamily(kTraits, place), present_(HasAccelerationLimits(place.robot)) {}
 
-  bool present() const override { return present_; }
+  bool present(const MarginLimits&) const override { return present_; }
   int count() const override { return present_ ? 12 : 0; }
   int groups() const override { return present_ ? 1 : 0; }
 

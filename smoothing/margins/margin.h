@@ -35,7 +35,9 @@ enum class MarginFamily : int {
   kFriction,       ///< friction coefficient of the floor less what the soles need [1]
   /// limit that the robot file states − |q̈| of a leg joint [rad/s²]
   kJointAcceleration,
-  kOwn,  ///< what the program itself adds (own_margin.h), of its scale [1]
+  kDoubleSupport,  ///< how long a half-step's ZMP goes from foot to foot [s]
+  kLandingSpeed,   ///< limit − how fast the swing sole sinks near the floor [m/s]
+  kOwn,            ///< what the program itself adds (own_margin.h), of its scale [1]
 };
 /// How many families there are.
 inline constexpr int kNumMarginFamilies = NumEnumerators<MarginFamily>();
@@ -69,9 +71,9 @@ struct Margin {
   LocalTime at = {};                         ///< the same instant by half-step
   double t = 0.0;                            ///< absolute time in the walk where it was found [s]
   /// What the margin belongs to, −1: nothing in particular. Both ZMPs: the step in the air, or −1.
-  /// Floor, foot speed, foot yaw rate, no-step: Index(Side). Reach, joints, joint speeds
-  /// and accelerations, torques: 6·Index(Side) + joint. Clearances and ground: index of
-  /// RobotModel::bodies.
+  /// Floor, foot speed, foot yaw rate, landing speed, no-step: Index(Side). Double support: the
+  /// half-step. Reach, joints, joint speeds and accelerations, torques: 6·Index(Side) + joint.
+  /// Clearances and ground: index of RobotModel::bodies.
   int subject = -1;
   int other = -1;  ///< index of the obstacle (clearance), second body (self-clearance) or area
   /// Not −1: found in the stop branch after this half-step; `at` and `t` are times of the branch.
@@ -83,6 +85,7 @@ struct Margin {
 struct MarginLimits {
   std::optional<double> foot_speed = 1.0;     ///< [m/s]; none: no limit
   std::optional<double> foot_yaw_rate = 2.0;  ///< [rad/s]
+  std::optional<double> landing_speed = {};   ///< downwards, in the last centimetre [m/s]
   double joint_speed_scale = 1.0;             ///< of the robot's joint speed limits, ∈ (0, 1]
   /// Demanded margin δ by family, in its unit: feasible means margin ≥ δ. kNotDemanded where the
   /// family may be left out (FamilyTraits::may_be_none).

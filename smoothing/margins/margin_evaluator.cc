@@ -15,20 +15,28 @@ MarginEvaluator::Shared::Shared(RobotModel robot, Scene scene, OwnMargins own)
     : place(std::move(robot), std::move(scene), std::move(own)) {
   for (const MarginFamily family : AllMarginFamilies()) {
     Nth(statements, family) = ClassOf(family).make(place);
-    if (Nth(statements, family)->present()) families.push_back(family);
   }
-  by_cost = families;
-  std::ranges::stable_sort(by_cost, {}, [](MarginFamily f) { return Traits(f).cost; });
 }
 
 MarginEvaluator::MarginEvaluator(RobotModel robot, Scene scene, MarginLimits limits)
-    : shared_(std::make_shared<const Shared>(std::move(robot), std::move(scene), limits.own)),
-      limits_(Demandable(limits, this->robot())) {}
+    : shared_(std::make_shared<const Shared>(std::move(robot), std::move(scene), limits.own)) {
+  SetLimits(limits);
+}
+
+void MarginEvaluator::SetLimits(const MarginLimits& limits) {
+  limits_ = Demandable(limits, robot());
+  limits_.own = place().own;
+  families_.clear();
+  for (const MarginFamily family : AllMarginFamilies()) {
+    if (statements(family).present(limits_)) families_.push_back(family);
+  }
+  by_cost_ = families_;
+  std::ranges::stable_sort(by_cost_, {}, [](MarginFamily f) { return Traits(f).cost; });
+}
 
 MarginEvaluator MarginEvaluator::WithLimits(const MarginLimits& limits) const {
   MarginEvaluator other = *this;
-  other.limits_ = Demandable(limits, robot());
-  other.limits_.own = place().own;
+  other.SetLimits(limits);
   return other;
 }
 
@@ -40,7 +48,9 @@ MarginSet MarginEvaluator::At(const SuperposedWalk& walk, const LocalTime& at,
   for (const MarginFamily family : AllMarginFamilies()) {
     Margin& margin = Nth(margins, family);
     margin.family = family;
-    if (statements(family).present()) margin = statements(family).Least(&instant, kUnlimited);
+    if (statements(family).present(limits_)) {
+      margin = statements(family).Least(&instant, kUnlimited);
+    }
     margin.at = at;
     margin.t = instant.t();
   }

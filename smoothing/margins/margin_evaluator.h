@@ -37,10 +37,10 @@ class MarginEvaluator {
   const BodyHeights& heights() const { return place().heights; }
   /// For evaluations by one thread.
   Scratch MakeScratch() const { return {.bodies = clearances().MakeScratch()}; }
-  /// The families that there are for this robot, in order.
-  std::span<const MarginFamily> families() const { return shared_->families; }
+  /// The families that there are for this robot and these limits, in order.
+  std::span<const MarginFamily> families() const { return families_; }
   /// The same, those that need little work first.
-  std::span<const MarginFamily> families_by_cost() const { return shared_->by_cost; }
+  std::span<const MarginFamily> families_by_cost() const { return by_cost_; }
   /// All statements of a family.
   const MarginStatements& statements(MarginFamily family) const {
     return *Nth(shared_->statements, family);
@@ -75,11 +75,12 @@ class MarginEvaluator {
     MarginPlace place;
     // By family; borrow place.
     std::array<std::unique_ptr<const MarginStatements>, kNumMarginFamilies> statements;
-    std::vector<MarginFamily> families, by_cost;  // that are present
   };
+  void SetLimits(const MarginLimits& limits);
 
   std::shared_ptr<const Shared> shared_;
   MarginLimits limits_;
+  std::vector<MarginFamily> families_, by_cost_;  // that are present
 };
 
 }  // namespace halfstep

@@ -46,9 +46,9 @@ class MarginStatements {
   const FamilyTraits& traits() const { return traits_; }  ///< name, unit and use of the family
   MarginFamily family() const { return traits_.family; }  ///< which it is
 
-  /// Whether the robot has what the family is about. If not, there are no statements and no groups,
-  /// every margin is +∞, and no file has a line of it.
-  virtual bool present() const { return true; }
+  /// Whether the robot has what the family is about, and the limits ask for it. If not, nobody asks
+  /// for statements, every margin is +∞, and no file has a line of it.
+  virtual bool present(const MarginLimits&) const { return true; }
   /// How many statements there are at every instant.
   virtual int count() const = 0;
   /// The name of what a margin of the family belongs to: "RLEG_LINK5 - bar", "right foot",

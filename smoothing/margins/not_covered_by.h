@@ -9,9 +9,10 @@
 namespace halfstep {
 
 /// All that a certificate by these limits does not speak of, each with the reason: families, in
-/// their order, of which nothing is demanded or that have no limit; a friction that is assumed; and
-/// what of the robot no certificate covers (NotCoveredOf). The one list of every command, file and
-/// page that shows a certificate.
+/// their order, of which nothing is demanded or that have no limit, but for those that a config has
+/// to ask for and does not; a friction and accelerations of joints that are assumed; and what of
+/// the robot no certificate covers (NotCoveredOf). The one list of every command, file and page
+/// that shows a certificate.
 std::vector<NotCovered> NotCoveredBy(const RobotModel& robot, const Scene& scene,
                                      const MarginLimits& limits);
 

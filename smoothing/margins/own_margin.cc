@@ -31,9 +31,9 @@ class OwnMargin final : public WholeFamily {
 
   explicit OwnMargin(const MarginPlace& place) : WholeFamily(kTraits), all_(place.own) {}
 
-  bool present() const override { return !all_.empty(); }
+  bool present(const MarginLimits&) const override { return !all_.empty(); }
   int count() const override { return static_cast<int>(all_.size()); }
-  int groups() const override { return present() ? 1 : 0; }
+  int groups() const override { return all_.empty() ? 0 : 1; }
   std::string Subject(const Margin& margin) const override {
     if (margin.subject >= 0) return Nth(all_, margin.subject)->name();
     std::string names;  // where it is not known which one

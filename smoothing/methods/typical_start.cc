@@ -80,17 +80,32 @@ std::optional<double> ValueOf(const TypicalForm& form, ParameterFamily family, i
 
 using Forms = std::vector<const TypicalForm*>;  // of each step
 
-HomotopyParameters StartOf(const HalfStepSequence& sequence, const ParameterTable& table,
-                           const RobotModel& robot, const Forms& forms) {
+// Makes the ZMP's shifts as long as demanded [s], and T where a shift may be no larger part of it.
+void KeepDoubleSupport(double demanded, const ParameterTable& table, HomotopyParameters* start) {
+  for (size_t i = 0; i < start->durations.size(); ++i) {
+    const auto raise = [&](ParameterFamily family, double least) {
+      const ParameterRow& row = table.row({family, static_cast<int>(i)});
+      double& value = row.parameter.in(*start);
+      if (!row.fixed) value = std::clamp(std::max(value, least), row.lower, row.upper);
+    };
+    raise(ParameterFamily::kZmpShift, demanded / start->durations[i]);
+    raise(ParameterFamily::kDuration, demanded / start->zmp_shifts[i]);
+  }
+}
+
+HomotopyParameters StartOf(const WalkProblem& problem, const ParameterTable& table,
+                           const Forms& forms) {
+  const HalfStepSequence& sequence = problem.sequence();
   HomotopyParameters start = table.Start();
   for (const ParameterRow& row : table.rows()) {
     if (row.fixed) continue;
     const ParameterFamily family = row.parameter.family;
     const int half_step = Traits(family).half_steps(row.parameter.index).first;
     const std::optional<double> value =
-        ValueOf(*Nth(forms, half_step / 2), family, half_step % 2, robot);
+        ValueOf(*Nth(forms, half_step / 2), family, half_step % 2, problem.robot());
     if (value) row.parameter.in(start) = std::clamp(*value, row.lower, row.upper);
   }
+  KeepDoubleSupport(problem.limits().demanded_of(MarginFamily::kDoubleSupport), table, &start);
   for (int i = 0; i < sequence.num_junctions(); ++i) {
     if (!table.free({ParameterFamily::kOverlap, i})) continue;
     const TypicalForm& own = *Nth(forms, i / 2);
@@ -122,7 +137,7 @@ HomotopyParameters TypicalStart(const WalkProblem& problem, const ParameterChoic
   for (int j = 0; j < sequence.num_steps(); ++j) {
     forms.push_back(form != nullptr ? form : &FormOfStep(sequence, j, problem.robot()));
   }
-  const HomotopyParameters start = StartOf(sequence, table, problem.robot(), forms);
+  const HomotopyParameters start = StartOf(problem, table, forms);
   if (form != nullptr || problem.scene().obstacles.empty()) return start;
   const SuperposedWalk walk(sequence, start);
   const double demanded = problem.limits().demanded_of(MarginFamily::kClearance);
@@ -136,7 +151,7 @@ HomotopyParameters TypicalStart(const WalkProblem& problem, const ParameterChoic
       break;
     }
   }
-  return StartOf(sequence, table, problem.robot(), forms);
+  return StartOf(problem, table, forms);
 }
 
 }  // namespace halfstep

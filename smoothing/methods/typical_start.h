@@ -32,8 +32,9 @@ const TypicalForm& FormOfStep(const HalfStepSequence& sequence, int step, const 
 
 /// A point near which fast walks are: each step in its own form, or in `form` where that is not
 /// null, as far as the ranges of `choice` allow. Steps that would touch an obstacle so, at a few
-/// instants, take the form over obstacles. What is fixed stays. Nothing is proved of it. `scratch`
-/// counts the work.
+/// instants, take the form over obstacles. ZMPs go from foot to foot for as long as is demanded
+/// (MarginFamily::kDoubleSupport). What is fixed stays. Nothing is proved of it. `scratch` counts
+/// the work.
 HomotopyParameters TypicalStart(const WalkProblem& problem, const ParameterChoice& choice,
                                 MarginEvaluator::Scratch* scratch,
                                 const TypicalForm* form = nullptr);

@@ -224,7 +224,7 @@ constexpr std::array<Row, kNumParameterFamilies> kRows = {{
      .key = "zmp_shifts",
      .key_meaning = "how long ZMPs shift is variable beside the overlaps",
      .bound_keys = {{{"least_zmp_shift", kOfShift, 0.02, 0.01, 0.3},
-                     {"most_zmp_shift", kOfShift, 0.1, 0.01, 0.3}}},
+                     {"most_zmp_shift", kOfShift, 0.3, 0.01, 0.3}}},
      .range_of = Between},
     {.family = ParameterFamily::kZmpBumpRamp,
      .name = "zmp_bump_ramp",

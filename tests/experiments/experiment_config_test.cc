@@ -296,6 +296,31 @@ TEST(ExperimentConfig, WhatIsDemandedOfJointAccelerationsIsWrittenWhereItIsNotTh
   }
 }
 
+// Nor is what a config has to ask for.
+TEST(ExperimentConfig, WhatMayBeAskedForIsWrittenWhereItIs) {
+  const TemporaryFolder place;
+  const std::string path = WriteText(place / "c.yaml", kAllKeys);
+  const std::vector<YamlOverride> asked = {{"smoothing.margins.double_support_s", "0.1"},
+                                           {"smoothing.margins.landing_speed_m_s", "0.02"},
+                                           {"smoothing.limits.landing_speed_m_s", "0.25"},
+                                           {"smoothing.limits.joint_acceleration_rad_s2", "40"}};
+  const std::string plain = Written(LoadConfig(path, {}));
+  for (const char* word : {"double_support", "landing_speed"}) {
+    EXPECT_THAT(plain, testing::Not(testing::HasSubstr(word)));
+  }
+  const ExperimentConfig c = LoadConfig(path, asked);
+  EXPECT_EQ(c.smoothing.limits.demanded_of(MarginFamily::kDoubleSupport), 0.1);
+  EXPECT_EQ(c.smoothing.limits.demanded_of(MarginFamily::kLandingSpeed), 0.02);
+  EXPECT_EQ(c.smoothing.limits.landing_speed, 0.25);
+  EXPECT_EQ(c.smoothing.assumed_acceleration, 40.0);
+  const std::string text = Written(c);
+  EXPECT_EQ(Written(LoadConfig(WriteText(place / "again.yaml", text), {})), text);
+  const RobotModel robot = LoadPlace(c).robot;
+  EXPECT_EQ(robot.legs[1].joints[5].max_acceleration, 40.0);
+  ASSERT_TRUE(robot.assumed_acceleration);
+  EXPECT_EQ(robot.assumed_acceleration->joints, 12);
+}
+
 TEST(ExperimentConfig, DefaultsAreThoseOfTheReadme) {
   const TemporaryFolder place;
   const ExperimentConfig c = LoadConfig(

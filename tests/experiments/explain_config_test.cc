@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "experiments/commands/commands.h"
 #include "experiments/config/data_folder.h"
@@ -68,9 +69,17 @@ TEST(ExplainConfig, DefaultsAndKeysAreThoseOfAResolvedConfig) {
                 " smoothing: {fixed: [{parameter: height_scale}]}}"),
       {});
   config.has_goal = config.smoothing.has_given = true;  // so that their keys are written
-  // So that this key is, which is left out at its default.
-  const std::string left_out = "smoothing.margins.joint_acceleration_rad_s2";
-  config.smoothing.limits.demanded_of(MarginFamily::kJointAcceleration) = 1.0;
+  // So that these keys are, which are left out at their defaults.
+  const std::set<std::string> left_out = {
+      "smoothing.margins.joint_acceleration_rad_s2", "smoothing.margins.double_support_s",
+      "smoothing.margins.landing_speed_m_s", "smoothing.limits.landing_speed_m_s",
+      "smoothing.limits.joint_acceleration_rad_s2"};
+  MarginLimits& limits = config.smoothing.limits;
+  for (const MarginFamily family : {MarginFamily::kJointAcceleration, MarginFamily::kDoubleSupport,
+                                    MarginFamily::kLandingSpeed}) {
+    limits.demanded_of(family) = 1.0;
+  }
+  config.smoothing.assumed_acceleration = limits.landing_speed = 1.0;
   const YamlNode resolved =
       Parsed(WriteYaml([&config](Fields& fields) { DeclareFields(fields, &config); }));
   std::map<std::string, const YamlNode*> values;
@@ -86,7 +95,7 @@ TEST(ExplainConfig, DefaultsAndKeysAreThoseOfAResolvedConfig) {
     ASSERT_TRUE(values.contains(path));
     EXPECT_NE(key->meaning, "");
     if (key->default_text.empty() || !key->otherwise.empty() || path == "footsteps" ||
-        path == "smoothing.fixed" || path == left_out) {
+        path == "smoothing.fixed" || left_out.contains(path)) {
       continue;
     }
     ++defaults;

@@ -190,7 +190,7 @@ TEST(ScaledDefaults, AreOfKeysThatThereAre) {
         }
       };
   count(formulas, values);
-  EXPECT_EQ(scaled, 30);
+  EXPECT_EQ(scaled, 31);
 }
 
 TEST(ScaledDefaults, GoByTheLegUnlessAKeySaysOtherwise) {

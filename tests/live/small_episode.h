@@ -21,6 +21,7 @@ inline constexpr char kSmallConfig[] =
     "scene: none\n"
     "goal: {x_m: 1.2, y_m: 0, radius_m: 0.15}\n"
     "half_step: {duration_s: 1.5, zmp_shift_s: 0.075}\n"
+    "smoothing: {margins: {double_support_s: 0.075}}\n"
     "step_set: {x_min_m: -0.1, x_max_m: 0.2, y_min_m: -0.29, y_max_m: -0.21,\n"
     "           spacing_m: 0.08, yaws_rad: [-0.25, 0, 0.25]}\n"
     "swept_volumes: {cell_m: 0.03, displacement_m: 0.02,\n"

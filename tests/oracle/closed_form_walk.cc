@@ -183,6 +183,11 @@ void ClosedFormWalk::CutIntoStretches() {
       stretch.in_air = air.foot;
       stretch.moves = middle >= air.moves_begin && middle <= air.moves_end;
     }
+    for (const HalfStep& h : half_steps_) {
+      const Real sigma = (middle - h.begin) / h.T;
+      if (sigma < h.sigma1 || sigma > h.sigma2) continue;
+      stretch.shift = std::min(stretch.shift, static_cast<double>((h.sigma2 - h.sigma1) * h.T));
+    }
     stretches_.push_back(stretch);
   }
 }

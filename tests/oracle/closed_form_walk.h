@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "tests/oracle/real.h"
@@ -88,6 +89,9 @@ struct Stretch {
   double begin = 0, end = 0;  ///< [s]
   int in_air = -1;            ///< foot that is in the air, or −1
   bool moves = false;         ///< that foot is in its horizontal motion
+  /// The shortest time that a ZMP takes from foot to foot, of those that are on their way in it
+  /// [s]; ∞: none is.
+  double shift = std::numeric_limits<double>::infinity();
 };
 
 /// The superposed walk of smoothing/README.md, "The homotopy", from the readmes' formulas.

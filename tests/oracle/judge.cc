@@ -290,6 +290,9 @@ Tally Judge::JudgeOne(SceneKind kind, unsigned seed, const std::string& folder,
   drawn.limits.demanded_of(MarginFamily::kZmp) = 0.01 * draw.Uniform(0, plain_.size());
   drawn.limits.demanded_of(MarginFamily::kZmpRobot) = 0.01 * draw.Uniform(0, plain_.size());
   drawn.limits.demanded_of(MarginFamily::kSelfClearance) = 0.005 * plain_.size();
+  // So that these are there.
+  drawn.limits.demanded_of(MarginFamily::kDoubleSupport) = 0.0;
+  drawn.limits.landing_speed = drawn.limits.foot_speed;
   if (!FindFeasible(folder, &drawn, &tally)) return tally;
   RaiseOverlaps(&drawn, &tally);
   const ClosedFormWalk walk(drawn.plan);
@@ -298,8 +301,9 @@ Tally Judge::JudgeOne(SceneKind kind, unsigned seed, const std::string& folder,
   JudgeCertified(drawn, drawn.limits, truth.Least(), truth, &tally);
   Compare(drawn, &truth, &tally);
   // The families that came last, one more, and often clearance.
-  std::vector<MarginFamily> pushed = {MarginFamily::kZmpRobot, MarginFamily::kTorque,
-                                      MarginFamily::kFriction, MarginFamily::kJointAcceleration};
+  std::vector<MarginFamily> pushed = {
+      MarginFamily::kZmpRobot,          MarginFamily::kTorque,        MarginFamily::kFriction,
+      MarginFamily::kJointAcceleration, MarginFamily::kDoubleSupport, MarginFamily::kLandingSpeed};
   pushed.push_back(static_cast<MarginFamily>(draw.Below(static_cast<int>(MarginFamily::kOwn))));
   if (draw.Chance(0.6)) pushed.push_back(MarginFamily::kClearance);
   for (const MarginFamily family : pushed) Push(drawn, family, &truth, &tally);

@@ -324,7 +324,8 @@ TEST_P(OracleTest, NoAnswerIsFalseAndFalsifiedOnesAreFound) {
   EXPECT_THAT(falsehoods, testing::IsEmpty());
   EXPECT_GT(all.judged, 10);
   EXPECT_GT(all.violated, 10);
-  for (const std::string name : {"zmp_robot", "torque", "friction", "joint_acceleration"}) {
+  for (const std::string name : {"zmp_robot", "torque", "friction", "joint_acceleration",
+                                 "double_support", "landing_speed"}) {
     EXPECT_GT(all.families[name].pushed, 1) << name;
   }
   // No family is left out; obstacles and areas may all have stood in the way.

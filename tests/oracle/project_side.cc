@@ -61,6 +61,7 @@ Demands ToDemands(const MarginLimits& limits, double friction) {
   }
   demands.foot_speed = *limits.foot_speed;
   demands.foot_yaw_rate = *limits.foot_yaw_rate;
+  demands.landing_speed = *limits.landing_speed;
   demands.joint_speed_scale = limits.joint_speed_scale;
   demands.friction = friction;
   return demands;

@@ -127,6 +127,17 @@ void WalkTruth::AddFootStatements() {
                              return Exactly(limit - std::abs(at.state.rate.feet[i][3]));
                            }});
   }
+  for (size_t i = 0; i < 2; ++i) {
+    statements_.push_back({"landing_speed", kFeet[i], 60.0,
+                           [i, limit = demands_.landing_speed](Instant& at, const Stretch& s) {
+                             if (s.in_air != static_cast<int>(i)) return Exactly(kNever);
+                             const double z = at.state.value.feet[i][2],
+                                          sinks = -at.state.rate.feet[i][2];
+                             return Exactly((z > 0.01 ? 100 * z * limit : limit) - sinks);
+                           }});
+  }
+  statements_.push_back(
+      {"double_support", "", 0.1, [](Instant&, const Stretch& s) { return Exactly(s.shift); }});
   statements_.push_back({"zmp", "", 15.0 * robot_.size(), [this](Instant& at, const Stretch& s) {
                            return Exactly(
                                InsideHull(SupportCorners(at.state, s), at.state.value.zmp));

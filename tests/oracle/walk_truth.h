@@ -26,7 +26,8 @@ inline Bracket Exactly(double value) { return {value, value}; }
 struct Demands {
   std::map<std::string, double> margin;
   double foot_speed = 1, foot_yaw_rate = 2, joint_speed_scale = 1;
-  double friction = 0.7;  ///< of the scene
+  double landing_speed = 1;  ///< in the last centimetre [m/s]
+  double friction = 0.7;     ///< of the scene
 };
 
 /// A margin by the oracle. Where a number is only bracketed (distances), `value` is its upper end,

@@ -9,6 +9,7 @@
 #include "smoothing/margins/margin_evaluator.h"
 #include "tests/wpg/hrp2.h"
 #include "tests/wpg/joint_limits.h"
+#include "wpg/robot/acceleration_limits.h"
 
 namespace halfstep {
 namespace {
@@ -38,6 +39,10 @@ TEST(NotCoveredBy, NamesEveryFamilyOfWhichNothingIsDemandedAndNoOther) {
   for (const MarginFamily family : FamiliesWith({})) {
     MarginLimits limits;
     limits.demanded_of(family) = kNotDemanded;
+    if (Traits(family).coverage.on_request) {  // it is not missed where none asks
+      EXPECT_THAT(FamiliesIn(NotCoveredBy(robot, {}, limits)), testing::IsEmpty());
+      continue;
+    }
     EXPECT_THAT(FamiliesIn(NotCoveredBy(robot, {}, limits)),
                 testing::ElementsAre(std::string(Name(family))));
   }
@@ -53,6 +58,7 @@ TEST(NotCoveredBy, NamesEveryFamilyThatARobotsFilesDoNotLetBeDemanded) {
   const MarginEvaluator evaluator(robot, {}, {});
   std::vector<std::string> dropped;
   for (const MarginFamily family : AllMarginFamilies()) {
+    if (Traits(family).coverage.on_request) continue;
     if (evaluator.limits().demanded_of(family) == kNotDemanded) {
       dropped.emplace_back(Name(family));
     }
@@ -83,6 +89,29 @@ TEST(NotCoveredBy, NamesFeetWithoutLimitsAndFrictionThatIsAssumed) {
   limits.demanded_of(MarginFamily::kFriction) = kNotDemanded;
   scene.friction = Scene{}.friction;
   EXPECT_EQ(of_friction(), 0) << "nothing is demanded of it";
+}
+
+TEST(NotCoveredBy, TellsAccelerationsThatAreAssumed) {
+  const auto told = [](const RobotModel& robot, const MarginLimits& limits) {
+    for (const NotCovered& one : NotCoveredBy(robot, {}, limits)) {
+      if (one.subject == "joint_acceleration") return one;
+    }
+    return NotCovered{};
+  };
+  RobotModel robot = Hrp2();
+  EXPECT_EQ(told(robot, {}).kind, NotCoveredKind::kFamily);
+  AssumeAccelerationLimits(40.0, &robot);
+  EXPECT_EQ(told(robot, {}).kind, NotCoveredKind::kAssumed);
+  EXPECT_EQ(told(robot, {}).sentence,
+            "limits of joint accelerations are assumed (40 rad/s²): the robot file states none");
+  MarginLimits none;
+  none.demanded_of(MarginFamily::kJointAcceleration) = kNotDemanded;
+  EXPECT_EQ(told(robot, none).sentence,
+            "joint_acceleration: nothing is demanded: the config says none");
+  RobotModel known = KnownRobot();
+  AssumeAccelerationLimits(40.0, &known);
+  EXPECT_EQ(known.legs[0].joints[3].max_acceleration, 20.0);
+  EXPECT_THAT(told(known, {}).sentence, testing::EndsWith("states none of 11 of 12 joints"));
 }
 
 TEST(NotCoveredBy, EndsWithWhatOfTheRobotNothingCovers) {

@@ -25,6 +25,7 @@ inline constexpr char kEpisodeConfig[] =
     "scene: scene.yaml\n"
     "goal: {x_m: 0.4, y_m: 0.1, radius_m: 0.05}\n"
     "half_step: {duration_s: 1.5, zmp_shift_s: 0.075}\n"
+    "smoothing: {margins: {double_support_s: 0.075}}\n"
     "step_set: {x_min_m: 0, x_max_m: 0.2, y_min_m: -0.21, y_max_m: -0.21, spacing_m: 0.2, "
     "yaws_rad: [0]}\n"
     "swept_volumes: {cell_m: 0.05, displacement_m: 0.05, cache: cache}\n"

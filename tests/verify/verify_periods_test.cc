@@ -24,14 +24,18 @@ std::vector<Case> Cases() {
       "footsteps=[{foot: right, x_m: 0.0978, y_m: -0.1013, yaw_deg: 4.30}, "
       "{foot: left, x_m: 0.1636, y_m: 0.1173, yaw_deg: 8.59}, "
       "{foot: right, x_m: 0.2912, y_m: -0.0721, yaw_deg: 12.89}]";
-  return {
-      {"RowsEvery10ms", {.overrides = {"output.period_s=0.01"}}},
-      {"RowsEvery50ms", {.overrides = {"output.period_s=0.05"}}, false},
-      {"ZmpShiftsIn20ms",
-       {.config = fig4, .overrides = {few, "half_step.zmp_shift_s=0.02", "output.period_s=0.005"}}},
-      {"RowsAsTheZmpShifts", {.overrides = {"half_step.zmp_shift_s=0.02"}}},
-      {"ZmpShiftsIn46ms", {.config = fig4, .overrides = {few, "half_step.zmp_shift_s=0.046"}}},
-      {"LowRobot", {.config = fig4, .overrides = {few}, .com_height = 0.577}}};
+  return {{"RowsEvery10ms", {.overrides = {"output.period_s=0.01"}}},
+          {"RowsEvery50ms", {.overrides = {"output.period_s=0.05"}}, false},
+          {"ZmpShiftsIn20ms",
+           {.config = fig4,
+            .overrides = {few, "half_step.zmp_shift_s=0.02", "smoothing.profile=limit",
+                          "output.period_s=0.005"}}},
+          {"RowsAsTheZmpShifts",
+           {.overrides = {"half_step.zmp_shift_s=0.02", "smoothing.profile=limit"}}},
+          {"ZmpShiftsIn46ms",
+           {.config = fig4,
+            .overrides = {few, "half_step.zmp_shift_s=0.046", "smoothing.profile=limit"}}},
+          {"LowRobot", {.config = fig4, .overrides = {few}, .com_height = 0.577}}};
 }
 
 class Periods : public testing::TestWithParam<Case> {};
@@ -47,7 +51,8 @@ TEST_P(Periods, WhatIsRightIsNotRefused) {
 // Where the config does not say how far rows are apart, quick shifts of the ZMP do.
 TEST(RowPeriod, IsFineWhereTheZmpShiftsWithinFiveRows) {
   for (const auto& [shift, period] : {std::pair{"0.024", 0.001}, {"0.026", 0.005}}) {
-    TamperedRun run({.overrides = {std::string("half_step.zmp_shift_s=") + shift}});
+    TamperedRun run(
+        {.overrides = {std::string("half_step.zmp_shift_s=") + shift, "smoothing.profile=limit"}});
     run.EditTrajectory([&](TamperedRun::Table& table) {
       EXPECT_EQ(std::stod(table[2][0]), period) << shift;
       EXPECT_EQ(std::stod(table[101][0]), 100 * period) << shift;

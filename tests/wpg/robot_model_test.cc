@@ -166,7 +166,7 @@ TEST(RobotModel, TorqueLimitsAreTheEffortsOrTheRobotFiles) {
 
 TEST(RobotModel, AccelerationLimitsAreTheRobotFiles) {
   for (const std::string& name : kShippedRobots) {
-    EXPECT_FALSE(StatesAccelerationLimits(ShippedRobot(name))) << name;
+    EXPECT_FALSE(HasAccelerationLimits(ShippedRobot(name))) << name;
   }
   const GeneratedRobot robot = GeneratedRobots()[0];
   const std::string yaml = GeneratedYaml(robot, "robot.urdf"), urdf = GeneratedUrdf(robot);
@@ -174,12 +174,12 @@ TEST(RobotModel, AccelerationLimitsAreTheRobotFiles) {
   const RobotModel model =
       TemporaryRobot("limited", urdf, yaml + key + "{left_joint0: 12.5, left_joint1: none}\n")
           .Load();
-  EXPECT_TRUE(StatesAccelerationLimits(model));
+  EXPECT_TRUE(HasAccelerationLimits(model));
   EXPECT_EQ(model.legs[0].joints[0].max_acceleration, 12.5);
   EXPECT_TRUE(std::isinf(model.legs[0].joints[1].max_acceleration));
   EXPECT_TRUE(std::isinf(model.legs[1].joints[0].max_acceleration));
   EXPECT_THAT(model.warnings, testing::IsEmpty());
-  EXPECT_FALSE(StatesAccelerationLimits(
+  EXPECT_FALSE(HasAccelerationLimits(
       TemporaryRobot("unlimited", urdf, yaml + key + "{left_joint0: none}\n").Load()));
 }
 

@@ -22,6 +22,8 @@ struct NumberSpec {
   bool required = false;                                  ///< whether the key may not be left out
   /// Of an optional number that few files need: writing leaves the key out at this value.
   std::optional<double> left_out = std::nullopt;
+  /// The same where it has none.
+  bool none_left_out = false;
 };
 /// The valid values of a text or a truth value.
 struct TextSpec {

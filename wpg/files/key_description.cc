@@ -33,6 +33,7 @@ class Describer : public Fields {
                       const NumberSpec& spec) override {
     NumberSpec written = spec;
     written.left_out.reset();  // the default is told, too, where files leave it out
+    written.none_left_out = false;
     AddValue(Kind::kOptionalNumber, key, spec,
              [&](Fields& f) { f.OptionalNumber(key, value, written); });
   }

@@ -61,7 +61,7 @@ class YamlWriter : public Fields {
   }
   void OptionalNumber(const char* key, std::optional<double>* value,
                       const NumberSpec& spec) override {
-    if (value->has_value() && *value == spec.left_out) return;
+    if (value->has_value() ? *value == spec.left_out : spec.none_left_out) return;
     Line(key, value->has_value() ? TextOfNumber(key, **value) : "none");
   }
   void Integer(const char* key, int* value, const NumberSpec&) override {

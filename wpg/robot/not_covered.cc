@@ -94,6 +94,17 @@ NotCovered AssumedFriction(double coefficient) {
                     coefficient)};
 }
 
+NotCovered AssumedAccelerations(const AssumedAcceleration& assumed) {
+  constexpr int kAll = 12;
+  const std::string of =
+      assumed.joints == kAll ? "" : Formatted(" of %d of %d joints", assumed.joints, kAll);
+  return {NotCoveredKind::kAssumed, "joint_acceleration",
+          Formatted("limits of joint accelerations are assumed (%.6g rad/s²): the robot file "
+                    "states none",
+                    assumed.limit) +
+              of};
+}
+
 std::vector<std::string> SummaryOf(const std::vector<NotCovered>& list) {
   constexpr size_t kMost = 4;
   std::vector<std::string> lines;

@@ -42,6 +42,9 @@ NotCovered UnlimitedFamily(std::string_view name);
 /// The friction coefficient that is assumed where a scene states none.
 NotCovered AssumedFriction(double coefficient);
 
+/// The limits of joint accelerations that are assumed where a robot file states none.
+NotCovered AssumedAccelerations(const AssumedAcceleration& assumed);
+
 /// The list for a screen: every sentence of a kind that has few, else its number and the first
 /// subjects.
 std::vector<std::string> SummaryOf(const std::vector<NotCovered>& list);

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,7 +30,8 @@ struct LegJoint {
   double max_speed = 0.0;   ///< [rad/s] > 0.
   /// Torque that its motor gives, either way [N m] > 0; ∞: not known.
   double max_torque = std::numeric_limits<double>::infinity();
-  /// Acceleration that it is allowed, either way [rad/s²] > 0; ∞: the robot file states none.
+  /// Acceleration that it is allowed, either way [rad/s²] > 0; ∞: the robot file states none, and
+  /// none is assumed.
   double max_acceleration = std::numeric_limits<double>::infinity();
   Eigen::Isometry3d X_BLink;  ///< frame of the link that it moves, at q = 0.
 };
@@ -88,6 +90,12 @@ struct BareLink {
   double mass = 0.0;  ///< [kg] > 0
 };
 
+/// A limit of acceleration that is assumed of leg joints of which the robot file states none.
+struct AssumedAcceleration {
+  double limit = 0.0;  ///< either way [rad/s²] > 0
+  int joints = 0;      ///< how many of the twelve have it
+};
+
 /// A robot as walking needs it; immutable after loading. Waist frame B: z up when standing.
 struct RobotModel {
   std::string name;               ///< in messages and manifests
@@ -101,6 +109,8 @@ struct RobotModel {
   double mass = 0.0;     ///< [kg]
   RobotMasses masses;    ///< of the waist's and the legs' links
   double standing_width = 0.0;  ///< distance of the sole centres in the standing posture [m].
+  /// What is assumed of joint accelerations (AssumeAccelerationLimits); none: nothing.
+  std::optional<AssumedAcceleration> assumed_acceleration = {};
   /// How high the swing foot goes at most in half-steps by default [m]; more only on demand.
   double largest_lift = std::numeric_limits<double>::infinity();
   /// Where CoM and ZMP rest on one foot in half-steps by default: along the support sole's y from

@@ -1,0 +1,80 @@
+#include <algorithm>
+
+#include "smoothing/margins/family_class.h"
+#include "smoothing/margins/swing_foot_family.h"
+
+namespace halfstep {
+namespace {
+
+// Up to here above the floor the limit is what it is; above, it grows with the height [m].
+constexpr double kLast = 0.01;
+
+// v·max(1, z/1 cm) − how fast the swing sole sinks [m/s], with its height z above the floor and the
+// limit v: the limit itself in the last centimetre; +∞ while both feet stand. Present where there
+// is a limit. Subject: Index(Side). Source: smoothing/README.md, "Landing".
+class LandingSpeedMargin final : public SwingFootFamily<LandingSpeedMargin> {
+ public:
+  static constexpr FamilyTraits kTraits = {
+      .family = MarginFamily::kLandingSpeed,
+      .name = "landing_speed",
+      .unit = "m/s",
+      .key = "landing_speed_m_s",
+      .meaning = "inside the limit of how fast the sole sinks in its last centimetre",
+      .remedy = "a longer `half_step.duration_s`, a lower `half_step.via_height_m`",
+      .sentence = kOfALimit,
+      .coverage = {.why_not_demandable = AlwaysDemandable,
+                   .limit = &MarginLimits::landing_speed,
+                   .on_request = true},
+      .scope = MarginScope::kRobot,
+      .scale = 0.1,
+      .demanded = 0.0,
+      .raised = false,
+      .cost = MarginCost::kWalk,
+      .row = MarginFamily::kFootSpeed,
+      .may_be_absent = true,
+  };
+
+  explicit LandingSpeedMargin(const MarginPlace& place)
+      : SwingFootFamily(kTraits), floor_(place.scene.ground->Floor()) {}
+
+  bool present(const MarginLimits& limits) const override {
+    return limits.landing_speed.has_value();
+  }
+
+  bool Watches(const Instant& at) const { return at.limits().landing_speed.has_value(); }
+  double Value(const Instant& at) const {
+    return Allowed(at, HeightAbove(at)) + at.jet().first[Height(at)];
+  }
+  void AddRow(Instant* at, SlackSink* rows) const {
+    const int z = Height(*at);
+    const bool grows = HeightAbove(*at) > kLast;
+    rows->Add(Value(*at), [&] {
+      WalkJet gradient;
+      gradient.first[z] = 1.0;
+      if (grows) gradient.value[z] = *at->limits().landing_speed / kLast;
+      return gradient;
+    });
+  }
+  double Change(const MarginInterval& interval) const {
+    const Instant& mid = interval.mid;
+    const int z = Height(mid);
+    const double here = HeightAbove(mid), lower = here - interval.motion.Change(z);
+    return Allowed(mid, here) - Allowed(mid, lower) +
+           interval.motion.half_width * interval.motion.second[z];
+  }
+
+ private:
+  static int Height(const Instant& at) { return FootIndex(at.swing()) + 2; }
+  double HeightAbove(const Instant& at) const { return at.jet().value[Height(at)] - floor_; }
+  static double Allowed(const Instant& at, double height) {
+    return *at.limits().landing_speed * std::max(1.0, height / kLast);
+  }
+
+  double floor_;  // [m]
+};
+
+}  // namespace
+
+const FamilyClass& ClassOf(TagOf<LandingSpeedMargin>) { return kClassOf<LandingSpeedMargin>; }
+
+}  // namespace halfstep
