@@ -27,10 +27,18 @@ HalfStepSequence RightStep(const RobotModel& robot) {
                       {}, std::make_shared<Lipm>(robot.com_height));
 }
 
+// With every family that a config has to ask for.
+MarginLimits AllAsked() {
+  MarginLimits limits;
+  limits.demanded_of(MarginFamily::kDoubleSupport) = 0.05;
+  limits.landing_speed = 0.3;
+  return limits;
+}
+
 class MarginEvaluatorTest : public testing::Test {
  protected:
   MarginSet At(const SuperposedWalk& walk, const LocalTime& at, const Scene& scene = {},
-               const MarginLimits& limits = {}) const {
+               const MarginLimits& limits = AllAsked()) const {
     const MarginEvaluator evaluator(robot_, scene, limits);
     MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
     return evaluator.At(walk, at, &scratch);
