@@ -85,6 +85,7 @@ struct Simulation::State {
   // What copies share.
   struct Layout {
     std::shared_ptr<const mjModel> model;
+    int floor = 0;                           // geom
     int waist = 0;                           // body
     std::array<int, 2> soles{};              // geoms
     std::array<std::array<int, 6>, 2> qpos;  // where the legs' angles stand
@@ -123,6 +124,7 @@ Simulation::Simulation(const std::string& mjcf, const RobotModel& robot,
   State::Layout layout;
   layout.model = Compile(mjcf);
   const mjModel& model = *layout.model;
+  layout.floor = Find(model, mjOBJ_GEOM, "floor");
   layout.waist = Find(model, mjOBJ_BODY, BodyName(waist_link));
   for (size_t side = 0; side < 2; ++side) {
     const std::string name(Name(static_cast<Side>(side)));
@@ -157,6 +159,13 @@ double Simulation::timestep() const { return state_->model()->opt.timestep; }
 
 double Simulation::weight() const {
   return state_->model()->body_subtreemass[kRoot] * -state_->model()->opt.gravity[2];
+}
+
+Eigen::Isometry3d Simulation::X_WFloor() const {
+  const mjModel& model = *state_->model();
+  const int floor = state_->layout->floor;
+  const mjtNum *const p = model.geom_pos + 3 * floor, *const q = model.geom_quat + 4 * floor;
+  return Eigen::Translation3d(p[0], p[1], p[2]) * Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
 }
 
 Eigen::Vector2d Simulation::sole_size() const {

@@ -37,7 +37,7 @@ Pose2 OnFloor(const Eigen::Isometry3d& X_WB) {
 Player::Player(const Simulation& robot, const ReferenceMotion& motion, const PlayOptions& options)
     : robot_(robot), options_(options) {
   const TrajectoryRow& first = motion.rows().front();
-  robot_.Place(first.X_WB(), first.q);
+  robot_.Place(robot_.X_WFloor() * first.X_WB(), first.q);
   const JointTargets targets = motion.TargetsAt(first.t);
   const long steps = std::lround(options.settle / robot_.timestep());
   for (long i = 0; i < steps; ++i) robot_.Step(targets, Eigen::Vector3d::Zero());

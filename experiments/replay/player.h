@@ -58,7 +58,7 @@ Pose2 OnFloor(const Eigen::Isometry3d& X_WB);
 /// continues independently.
 class Player {
  public:
-  /// Places the robot in the first row's posture and lets it settle.
+  /// Places the robot on its floor in the first row's posture and lets it settle.
   Player(const Simulation& robot, const ReferenceMotion& motion, const PlayOptions& options);
 
   double time() const { return t_; }                  ///< played so far [s]

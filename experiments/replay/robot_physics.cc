@@ -13,13 +13,14 @@ constexpr double kLegLength = 0.705;  // of HRP-2 [m]
 constexpr double kMass = 56.9;        // [kg]
 
 // To three digits: HRP-2's numbers stay what they are.
-double Scaled(double hrp2, double scale) { return Shortened(hrp2 * scale, 3); }
+double Rounded(double value) { return Shortened(value, 3); }
+double Scaled(double hrp2, double scale) { return Rounded(hrp2 * scale); }
 
 }  // namespace
 
 RobotScale ScaleOf(const RobotModel& robot) {
-  const double length = LegLengthOf(robot) / kLegLength;
-  return {.length = length, .mass = robot.mass / kMass, .time = std::sqrt(length)};
+  const double length = Rounded(LegLengthOf(robot)) / kLegLength;
+  return {.length = length, .mass = Rounded(robot.mass) / kMass, .time = std::sqrt(length)};
 }
 
 ModelOptions PhysicsOf(const RobotModel& robot) {
@@ -29,7 +30,7 @@ ModelOptions PhysicsOf(const RobotModel& robot) {
   model.damping = Scaled(model.damping, scale.torque() * scale.time);
   model.armature = Scaled(model.armature, scale.inertia());
   model.contact_time = Scaled(model.contact_time, scale.time);
-  model.timestep /= std::ceil(std::max(1.0, 1.0 / Scaled(1.0, scale.time)));
+  model.timestep /= std::ceil(std::max(1.0, 1.0 / Rounded(scale.time)));
   return model;
 }
 

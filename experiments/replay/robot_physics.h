@@ -8,7 +8,7 @@
 namespace halfstep::replay {
 
 /// How many times as large as HRP-2's these are: leg length ℓ/0.705 m, mass m/56.9 kg, and times,
-/// √(ℓ/0.705 m), since all robots fall by the same g.
+/// √(ℓ/0.705 m), since all robots fall by the same g; ℓ and m to three digits.
 struct RobotScale {
   double length = 1.0;  ///< of distances
   double mass = 1.0;    ///< of masses

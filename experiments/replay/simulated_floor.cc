@@ -1,7 +1,6 @@
 #include "experiments/replay/simulated_floor.h"
 
 #include <algorithm>
-#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -43,26 +42,35 @@ std::vector<Eigen::Vector4d> Landings(const std::vector<TrajectoryRow>& rows) {
 
 Pose2 PlaceOf(const Eigen::Vector4d& sole) { return {sole[0], sole[1], sole[3]}; }
 
-// The plane through the middle of the soles at the start, turned by the slope, then lowered until
-// no corner of a sole is below it.
-Isometry3d DrawPlane(double slope, const TrajectoryRow& start, const RobotModel& robot,
-                     SeedDraws* draws) {
+// The plane z = 0, turned about the middle of the soles at the start.
+Isometry3d DrawPlane(double slope, const TrajectoryRow& start, SeedDraws* draws) {
   const double direction = draws->Between(0.0, 2 * std::numbers::pi);
-  const Eigen::Vector2d middle = 0.5 * (start.soles[0] + start.soles[1]).head<2>();
+  if (slope == 0.0) return Isometry3d::Identity();
+  Vector3d middle = Vector3d::Zero();
+  middle.head<2>() = 0.5 * (start.soles[0] + start.soles[1]).head<2>();
   const Vector3d axis(-Sin(direction), Cos(direction), 0.0);
   Isometry3d X = Isometry3d::Identity();
   X.linear() = AxisRotation(slope, axis);
-  const Vector3d normal = X.linear().col(2);
-  double lowest = std::numeric_limits<double>::infinity();
-  for (const Eigen::Vector4d& sole : start.soles) {
-    const auto corners = SoleCorners(PlaceOf(sole), robot.sole_size);
-    for (Eigen::Index i = 0; i < corners.cols(); ++i) {
-      const Eigen::Vector2d from_middle = corners.col(i) - middle;
-      lowest = std::min(lowest, normal.head<2>().dot(from_middle));
-    }
-  }
-  X.translation() << middle, lowest / normal.z();
+  X.translation() = middle - X.linear() * middle;
   return X;
+}
+
+// Whether all corners of one rectangle are beyond the line of an edge of another.
+bool IsBeyondAnEdge(const SupportPolygon& one, const SupportPolygon& other) {
+  for (int i = 0; i < other.size(); ++i) {
+    const Eigen::Vector2d a = other.corner(i), along = other.corner((i + 1) % other.size()) - a;
+    bool beyond = true;
+    for (int k = 0; k < one.size(); ++k) {
+      const Eigen::Vector2d to = one.corner(k) - a;
+      beyond = beyond && along.x() * to.y() - along.y() * to.x() < 0.0;
+    }
+    if (beyond) return true;
+  }
+  return false;
+}
+
+bool AreApart(const SupportPolygon& one, const SupportPolygon& other) {
+  return IsBeyondAnEdge(one, other) || IsBeyondAnEdge(other, one);
 }
 
 }  // namespace
@@ -97,23 +105,20 @@ SimulatedFloor DrawFloor(const FloorRelief& relief, const std::vector<Trajectory
                          const RobotModel& robot, SeedDraws* draws) {
   SimulatedFloor floor;
   const TrajectoryRow& start = rows.front();
-  const Isometry3d plane = DrawPlane(relief.slope, start, robot, draws);
-  if (relief.slope > 0.0) floor.X_WFloor = plane;
+  floor.X_WFloor = DrawPlane(relief.slope, start, draws);
   const Eigen::Vector2d half = 0.5 * robot.sole_size;
   for (const Eigen::Vector4d& landing : Landings(rows)) {
-    const Eigen::Vector2d shift(draws->Between(-half.x(), half.x()),
-                                draws->Between(-half.y(), half.y()));
+    const Pose2 shift{draws->Between(-half.x(), half.x()), draws->Between(-half.y(), half.y()),
+                      0.0};
     const double height = draws->Between(0.0, relief.plates);
-    Isometry3d X_WP =
-        TrajectoryRow::Upright(landing) * Eigen::Translation3d(shift.x(), shift.y(), 0);
+    const Pose2 X_FP = PlaceOf(landing) * shift;
+    const SupportPolygon face(X_FP, robot.sole_size);
     const bool apart = std::ranges::all_of(start.soles, [&](const Eigen::Vector4d& sole) {
-      return (sole.head<2>() - X_WP.translation().head<2>()).norm() > 2 * half.norm();
+      return AreApart(face, SupportPolygon(PlaceOf(sole), robot.sole_size));
     });
     if (height == 0.0 || !apart) continue;
-    X_WP.translation().z() = 0.0;
-    const Eigen::Vector2d foot = floor.X_WFloor.translation().head<2>();
-    X_WP.translation().head<2>() -= foot;
-    floor.plates.push_back({Eigen::Translation3d(0, 0, height) * X_WP, robot.sole_size});
+    floor.plates.push_back(
+        {TrajectoryRow::Upright({X_FP.x, X_FP.y, height, X_FP.yaw}), robot.sole_size});
   }
   return floor;
 }

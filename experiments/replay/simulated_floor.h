@@ -28,14 +28,15 @@ struct FloorPlate {
 
 /// A plane with plates on it.
 struct SimulatedFloor {
-  Eigen::Isometry3d X_WFloor = Eigen::Isometry3d::Identity();  ///< z is the plane's normal
-  std::vector<FloorPlate> plates;                              ///< on the plane
+  /// Of W's plane z = 0, on which the walk was planned: z is the simulated plane's normal.
+  Eigen::Isometry3d X_WFloor = Eigen::Isometry3d::Identity();
+  std::vector<FloorPlate> plates;  ///< on the plane
 };
 
 /// Draws a floor for the walk of these rows. Each place where a sole lands gets a plate of the
-/// sole's size, up to `plates` high and shifted by up to half a sole either way, unless that could
-/// touch a sole that stands at the start. The plane falls in a drawn direction, below both soles at
-/// the start and as near to them as it can be.
+/// sole's size, up to `plates` high and shifted by up to half a sole either way, unless it would be
+/// under a sole that stands at the start. The plane is turned about the middle of these soles and
+/// falls in a drawn direction.
 SimulatedFloor DrawFloor(const FloorRelief& relief, const std::vector<TrajectoryRow>& rows,
                          const RobotModel& robot, SeedDraws* draws);
 

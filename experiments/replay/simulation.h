@@ -67,6 +67,8 @@ class Simulation {
   double timestep() const;  ///< [s]
   /// The weight of the model [N].
   double weight() const;
+  /// The model's floor (SimulatedFloor).
+  Eigen::Isometry3d X_WFloor() const;
   /// Length and width of a sole [m].
   Eigen::Vector2d sole_size() const;
 
