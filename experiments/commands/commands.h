@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/config/replay_config.h"
 #include "experiments/config/toolbox.h"
 #include "experiments/export/whole_trajectory.h"
 #include "experiments/report/walk_video.h"
@@ -119,9 +120,13 @@ ExitStatus Export(const ExportCommand& command);
 struct ReplayCommand {
   std::string run;  ///< folder of a run or of an episode
   std::optional<std::string> method;
-  bool push = false;            ///< finds the largest push that is survived
-  std::vector<double> push_at;  ///< instants [s]; none: a quarter, half, three quarters
-  bool out = false;             ///< write METHOD/replay.csv, of an episode replay.csv, there
+  bool push = false;                 ///< finds the largest push that is survived
+  std::vector<double> push_at;       ///< instants [s]; none: a quarter, half, three quarters
+  ReplayConfig robot;                ///< servos, ankles and torque limits; its seeds count not
+  std::optional<std::string> floor;  ///< as ParseRelief() takes it; none: level
+  std::optional<int> seeds;          ///< plays each walk in the worlds of so many seeds; none: once
+  /// Write METHOD/replay.csv, of an episode replay.csv, there; with seeds replays.csv.
+  bool out = false;
   bool quiet = false;
   bool json = false;
   Toolbox tools = {};  ///< that configs may name

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -8,9 +10,9 @@
 #include "experiments/config/experiment.h"
 #include "experiments/config/folder_name.h"
 #include "experiments/replay/episode_folder.h"
-#include "experiments/replay/mujoco_model.h"
 #include "experiments/replay/replay_screen.h"
-#include "experiments/replay/simulated_obstacles.h"
+#include "experiments/replay/run_replay.h"
+#include "experiments/replay/seeds_screen.h"
 #include "experiments/run/interrupt.h"
 #include "experiments/run/progress_bar.h"
 #include "experiments/tables/certificate_files.h"
@@ -18,7 +20,8 @@
 #include "experiments/tables/run_record.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/number_text.h"
-#include "wpg/nth.h"
+#include "wpg/files/text.h"
+#include "wpg/robot/torque_limits.h"
 
 namespace halfstep {
 namespace {
@@ -39,30 +42,42 @@ std::vector<double> Instants(const ReplayCommand& command, double duration) {
 /// A walk as the servos follow it.
 struct NamedMotion {
   std::string method;
-  std::string table;  ///< its replay.csv in the folder, without the extension
+  std::string folder;  ///< of its table in the run, with a slash; "": the run itself
   replay::ReferenceMotion motion;
 };
 
 /// All that is simulated.
 struct Task {
-  WholeRobot robot;
-  replay::SimulatedObstacles world;
+  replay::ReplaySetup setup;
+  std::vector<std::string> notes;  ///< on what is simulated otherwise than files say
   std::vector<NamedMotion> motions;
-  replay::PlayOptions options = {};
 };
+
+Task TaskOf(const ReplayCommand& command, WholeRobot robot,
+            const replay::SimulatedObstacles& world) {
+  Task task{.setup = replay::SetupOf(std::move(robot), world.obstacles, command.robot),
+            .notes = world.notes,
+            .motions = {}};
+  if (command.floor) task.setup.relief = replay::ParseRelief("--floor", *command.floor);
+  const std::vector<std::string> unknown = JointsOfUnknownTorque(task.setup.robot.model);
+  if (command.robot.torque_limits) {
+    task.notes.push_back("Leg joints whose servos have no torque limit: " +
+                         (unknown.empty() ? "none." : std::to_string(unknown.size()) + " of 12."));
+  }
+  return task;
+}
 
 Task RunTask(const ReplayCommand& command) {
   const std::vector<std::string> methods = MethodsOfRun(command.run, command.method);
   const ExperimentConfig config =
       LoadConfig((fs::path(command.run) / "config.yaml").string(), {}, command.tools);
-  Task task{.robot = LoadWholeRobot(RobotPath(config).string()), .world = {}, .motions = {}};
-  if (const auto scene = ScenePath(config)) {
-    task.world = replay::ObstaclesOf(LoadScene(scene->string()));
-  }
+  replay::SimulatedObstacles world;
+  if (const auto scene = ScenePath(config)) world = replay::ObstaclesOf(LoadScene(scene->string()));
+  Task task = TaskOf(command, LoadWholeRobot(RobotPath(config).string()), world);
   for (const std::string& method : methods) {
     const fs::path path = fs::path(command.run) / MethodFolder(method) / "trajectory.csv";
-    task.motions.push_back({method, MethodFolder(method) + "/replay",
-                            replay::ReferenceMotion(ReadTrajectory(path, task.robot.model))});
+    task.motions.push_back({method, MethodFolder(method) + "/",
+                            replay::ReferenceMotion(ReadTrajectory(path, task.setup.robot.model))});
   }
   return task;
 }
@@ -72,11 +87,9 @@ Task EpisodeTask(const ReplayCommand& command) {
     throw InputError({"--method: " + command.run + " is an episode, which has one walk"});
   }
   replay::RecordedEpisode episode = replay::ReadEpisode(command.run, command.tools);
-  Task task{.robot = std::move(episode.robot),
-            .world = replay::ObstaclesOf(episode.truth),
-            .motions = {}};
-  task.motions.push_back({"episode", "replay", std::move(episode.motion)});
-  task.options.drift_window = episode.config.live.horizon;
+  Task task = TaskOf(command, std::move(episode.robot), replay::ObstaclesOf(episode.truth));
+  task.motions.push_back({"episode", "", std::move(episode.motion)});
+  task.setup.play.drift_window = episode.config.live.horizon;
   return task;
 }
 
@@ -96,18 +109,127 @@ std::vector<std::string> NamesOf(const auto& things) {
   return names;
 }
 
-void WriteRows(const Task& task, const std::vector<replay::Replayed>& all, const std::string& run) {
+// Writes one table for each motion into the run.
+void WriteTables(const Task& task, const std::string& run, const std::string& name,
+                 const std::vector<CsvFile>& tables) {
   RunFolder folder(run, /*overwrite=*/true);
   folder.CopyOlder();
-  for (size_t i = 0; i < all.size(); ++i) {
-    WriteCsv(task.motions[i].table, ReplayCsv(all[i].result.rows), &folder);
+  for (size_t i = 0; i < tables.size(); ++i) {
+    WriteCsv(task.motions[i].folder + name, tables[i], &folder);
   }
   folder.Publish();
+}
+
+// What is common to both ways to replay: how it is told, and where it is written.
+struct Telling {
+  const ReplayCommand& command;
+  const Task& task;
+  InterruptGuard& interrupt;
+  bool screen() const { return !command.quiet && !command.json; }
+
+  ExitStatus Finish(const std::string& name, const std::vector<CsvFile>& tables,
+                    const std::string& json, bool stayed_up) const {
+    if (command.out) WriteTables(task, command.run, name, tables);
+    if (command.json) {
+      std::cout << json;
+    } else if (screen()) {
+      for (const std::string& note : task.notes) std::cout << note << '\n';
+      std::cout << '\n' << replay::kReplayDisclaimer << '\n';
+    }
+    return stayed_up ? kSuccess : kFailed;
+  }
+};
+
+// Each walk once, undisturbed but for the floor, which is that of seed 1.
+ExitStatus ReplayOnce(const Telling& telling, const std::vector<std::vector<double>>& push_at) {
+  const auto& [command, task, interrupt] = telling;
+  std::vector<replay::Replayed> all;
+  std::vector<CsvFile> tables;
+  bool stayed_up = true;
+  for (size_t i = 0; i < task.motions.size(); ++i) {
+    const replay::ReferenceMotion& motion = task.motions[i].motion;
+    const replay::Simulation simulation =
+        task.setup.Robot(replay::DrawWorld(1, task.setup, motion).floor);
+    replay::Replayed& replayed = all.emplace_back();
+    replayed.method = task.motions[i].method;
+    replayed.duration = motion.end();
+    replayed.window = task.setup.play.drift_window;
+    replayed.bodies = NamesOf(task.setup.robot.model.bodies);
+    replayed.obstacles = NamesOf(task.setup.obstacles);
+    replayed.result = replay::Play(simulation, motion, task.setup.play);
+    replay::CompareMassModel(task.setup.robot.model, task.setup.robot.tree, motion,
+                             &replayed.result);
+    stayed_up = stayed_up && replayed.result.stayed_up;
+    if (command.push && replayed.result.stayed_up) {
+      ProgressBar bar("pushes of " + replayed.method, !telling.screen());
+      replayed.pushes = replay::FindPushLimits(
+          simulation, motion, task.setup.play, {}, push_at[i],
+          [&bar](double done) { bar.Update(done); }, interrupt.token());
+    }
+    if (interrupt.requested()) return kInterrupted;
+    if (telling.screen()) std::cout << replay::ReplayText(replayed);
+    tables.push_back(replay::ReplayCsv(replayed.result.rows));
+  }
+  return telling.Finish("replay", tables, replay::ReplayJson(command.run, task.notes, all),
+                        stayed_up);
+}
+
+// Each walk in the worlds of the seeds.
+ExitStatus ReplaySeeds(const Telling& telling) {
+  const auto& [command, task, interrupt] = telling;
+  std::vector<replay::SeedsPlayed> all;
+  std::vector<CsvFile> tables;
+  bool stayed_up = true;
+  for (const NamedMotion& one : task.motions) {
+    ProgressBar bar("seeds of " + one.method, !telling.screen());
+    const replay::SeedsPlayed& played = all.emplace_back(
+        replay::SeedsPlayed{.method = one.method,
+                            .duration = one.motion.end(),
+                            .obstacles = !task.setup.obstacles.empty(),
+                            .seeds = replay::PlaySeeds(
+                                task.setup, one.motion, *command.seeds,
+                                [&bar](double done) { bar.Update(done); }, interrupt.token())});
+    if (interrupt.requested()) return kInterrupted;
+    stayed_up = stayed_up && replay::Standing(played.seeds) == *command.seeds;
+    if (telling.screen()) std::cout << replay::SeedsText(played);
+    tables.push_back(replay::SeedsCsv(played.seeds));
+  }
+  return telling.Finish("replays", tables, replay::SeedsJson(command.run, task.notes, all),
+                        stayed_up);
+}
+
+// "K,D" of an option.
+std::vector<double> SpringOf(const std::string& option, const std::string& text) {
+  std::vector<double> spring;
+  const size_t comma = std::min(text.find(','), text.size());
+  for (const std::string& part :
+       {text.substr(0, comma), text.substr(std::min(comma + 1, text.size()))}) {
+    const NumberText number = ParseNumber(part);
+    if (number.kind == NumberText::Kind::kNumber) spring.push_back(number.value);
+  }
+  if (spring.empty()) spring = {0.0};
+  const std::string mistake = MistakeInSpring(spring);
+  if (!mistake.empty()) throw InputError({option + " " + Quote(text) + ": " + mistake});
+  return spring;
+}
+
+int SeedsOf(const std::string& text) {
+  const NumberText number = ParseNumber(text);
+  const bool good = number.kind == NumberText::Kind::kNumber && number.value >= 1 &&
+                    number.value <= kMostSeeds && number.value == std::floor(number.value);
+  if (!good) {
+    throw InputError({"--seeds " + Quote(text) + ": is no number of seeds (valid: 1 … " +
+                      std::to_string(kMostSeeds) + ")"});
+  }
+  return static_cast<int>(number.value);
 }
 
 }  // namespace
 
 ExitStatus Replay(const ReplayCommand& command) {
+  if (command.seeds && command.push) {
+    throw InputError({"--push: looks for the limit in one simulation (valid: without --seeds)"});
+  }
   const Task task = IsEpisode(command.run) ? EpisodeTask(command) : RunTask(command);
   const std::vector<std::vector<double>> push_at = AllInstants(command, task);
   if (const std::string why = replay::WhyNoSimulation(); !why.empty()) {
@@ -115,58 +237,46 @@ ExitStatus Replay(const ReplayCommand& command) {
     return kFailed;
   }
   InterruptGuard interrupt;
-  const auto& [robot, tree] = task.robot;
-  const std::vector<replay::SimulatedObstacle>& obstacles = task.world.obstacles;
-  const replay::Simulation simulation(replay::MujocoModel(robot, tree, {}, obstacles), robot,
-                                      Nth(tree.urdf.links, tree.waist).name, obstacles);
-  const bool screen = !command.quiet && !command.json;
-  std::vector<replay::Replayed> all;
-  bool stayed_up = true;
-  for (size_t i = 0; i < task.motions.size(); ++i) {
-    const replay::ReferenceMotion& motion = task.motions[i].motion;
-    replay::Replayed& replayed = all.emplace_back();
-    replayed.method = task.motions[i].method;
-    replayed.duration = motion.end();
-    replayed.window = task.options.drift_window;
-    replayed.bodies = NamesOf(robot.bodies);
-    replayed.obstacles = NamesOf(obstacles);
-    replayed.result = replay::Play(simulation, motion, task.options);
-    replay::CompareMassModel(robot, tree, motion, &replayed.result);
-    stayed_up = stayed_up && replayed.result.stayed_up;
-    if (command.push && replayed.result.stayed_up) {
-      ProgressBar bar("pushes of " + replayed.method, !screen);
-      replayed.pushes = replay::FindPushLimits(
-          simulation, motion, task.options, {}, push_at[i],
-          [&bar](double done) { bar.Update(done); }, interrupt.token());
-    }
-    if (interrupt.requested()) return kInterrupted;
-    if (screen) std::cout << replay::ReplayText(replayed);
-  }
-  if (command.out) WriteRows(task, all, command.run);
-  if (command.json) {
-    std::cout << replay::ReplayJson(command.run, task.world.notes, all);
-  } else if (screen) {
-    for (const std::string& note : task.world.notes) std::cout << note << '\n';
-    std::cout << '\n' << replay::kReplayDisclaimer << '\n';
-  }
-  return stayed_up ? kSuccess : kFailed;
+  const Telling telling{command, task, interrupt};
+  return command.seeds ? ReplaySeeds(telling) : ReplayOnce(telling, push_at);
 }
 
 CommandAction DeclareReplay(CLI::App* app, const Toolbox& tools) {
   const auto command = std::make_shared<ReplayCommand>();
   command->tools = tools;
-  const auto engine = std::make_shared<std::string>("mujoco");
+  // CLI11 writes into these while it parses, so they must live as long as the action.
+  struct Texts {
+    std::string engine = "mujoco";
+    std::optional<std::string> servos, ankle, seeds;
+  };
+  const auto texts = std::make_shared<Texts>();
   app->add_option("RUN", command->run, "folder of a run or of an episode")->required();
-  app->add_option("--engine", *engine, "mujoco")->check(OneOf({"mujoco"}));
+  app->add_option("--engine", texts->engine, "mujoco")->check(OneOf({"mujoco"}));
   app->add_option("--method", command->method, "only this one (default: all)");
+  app->add_option("--servos", texts->servos,
+                  "K,D of the servos [N m/rad, N m s/rad] (default: as the robot's size has them)");
+  app->add_option("--ankle", texts->ankle,
+                  "K,D of a passive bush above each foot (default: there is none)");
+  app->add_flag("--torque-limits", command->robot.torque_limits,
+                "servos give no more than the robot's efforts");
+  app->add_option("--floor", command->floor,
+                  "unknown to the plan: plates=H [m], slope=A [deg], or both with a comma");
+  app->add_option(
+      "--seeds", texts->seeds,
+      "play each walk so often, with friction, contacts, stiffness, CoM and a push drawn");
   app->add_flag("--push", command->push, "find the largest push that each walk survives");
   app->add_option("--push-at", command->push_at, "instants of the push [s]");
-  app->add_flag("--out", command->out,
-                "write METHOD/replay.csv (episode: replay.csv) into the folder");
+  app->add_flag(
+      "--out", command->out,
+      "write METHOD/replay.csv (episode: replay.csv; seeds: replays.csv) into the folder");
   app->add_flag("--quiet", command->quiet, "print nothing but errors");
   app->add_flag("--json", command->json, "print JSON");
-  // CLI11 writes into `engine` while it parses, so it must live as long as the action.
-  return [command, engine] { return Replay(*command); };
+  return [command, texts] {
+    if (texts->servos) command->robot.servos = SpringOf("--servos", *texts->servos);
+    if (texts->ankle) command->robot.ankle = SpringOf("--ankle", *texts->ankle);
+    if (texts->seeds) command->seeds = SeedsOf(*texts->seeds);
+    return Replay(*command);
+  };
 }
 
 }  // namespace halfstep

@@ -6,6 +6,7 @@
 
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
+#include "experiments/replay/run_replay.h"
 #include "experiments/report/report.h"
 #include "experiments/report/report_page.h"
 #include "experiments/run/complete_manifest.h"
@@ -86,13 +87,14 @@ bool TellWhatDidNotWork(const ExperimentRun& whole, bool wants_plan) {
 ExitStatus Run(const RunCommand& command) {
   InterruptGuard interrupt;
   ProgressBars bars(command.quiet || command.json);
+  const ExperimentConfig config = LoadConfig(command.config, command.overrides, command.tools);
   const RunHooks hooks{
       .progress = [&bars](const std::string& what, double done) { bars.Update(what, done); },
       .best = [&bars](const std::string& method, double walk) { bars.Best(method, walk); },
       .stop = interrupt.token(),
       .stop_step = interrupt.step_token(),
-      .keep = [&interrupt] { interrupt.Keep(); }};
-  const ExperimentConfig config = LoadConfig(command.config, command.overrides, command.tools);
+      .keep = [&interrupt] { interrupt.Keep(); },
+      .replay = replay::ReplayerOf(config)};
   ExperimentRun run(config, hooks);
   if (run.refusal()) {
     bars.End();
@@ -109,6 +111,8 @@ ExitStatus Run(const RunCommand& command) {
   TellInfeasible(run);  // before the tables, which take longer
   // What smoothing had found when it was stopped is proved all the same.
   run.Certify(interrupt.requested() ? interrupt.proof_token() : interrupt.token());
+  run.Replay(hooks);
+  bars.End();
   run.Write(&folder);
   WriteReport(run.experiment().robot, run.experiment().scene, &folder, command.tools);
   CompleteManifest(run.experiment().robot, run.experiment().scene, &folder);

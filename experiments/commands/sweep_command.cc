@@ -10,6 +10,7 @@
 
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
+#include "experiments/replay/run_replay.h"
 #include "experiments/report/report_page.h"
 #include "experiments/report/sweep_report.h"
 #include "experiments/run/interrupt.h"
@@ -177,7 +178,8 @@ int Sweep(const SweepCommand& command) {
   }
   if (!command.one_case.empty()) {
     const SweepCase one = CaseOfId(sweep, command.one_case);
-    return DoSweepCase(SweepFolder(OutputFolder(command, sweep), sweep), one, interrupt.token());
+    return DoSweepCase(SweepFolder(OutputFolder(command, sweep), sweep), one, interrupt.token(),
+                       replay::ReplayerOf);
   }
   const std::vector<SweepCase> cases = CasesOf(sweep, command.range);
   if (command.list_cases) {

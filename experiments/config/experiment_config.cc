@@ -207,6 +207,10 @@ void DeclareFields(Fields& fields, ExperimentConfig* c) {
                  "plans to a goal are of steps that were proved (valid: `false` with a `goal`)");
     }
   });
+  fields.OptionalGroup("replay", &c->has_replay,
+                       {.meaning = "simulated robots that play each certified walk",
+                        .otherwise = "nothing is simulated"},
+                       [&](Fields& f) { DeclareReplay(f, &c->replay); });
   fields.Group("output", {.meaning = "what is written"}, [&](Fields& f) { DeclareOutput(f, c); });
   fields.Integer("seed", &c->seed,
                  {.meaning = "of the planner's random numbers", .min = 0, .max = 2147483647});

@@ -6,6 +6,7 @@
 
 #include "experiments/config/half_step_config.h"
 #include "experiments/config/planning_config.h"
+#include "experiments/config/replay_config.h"
 #include "experiments/config/smoothing_config.h"
 #include "experiments/config/toolbox.h"
 #include "wpg/files/fields.h"
@@ -41,6 +42,8 @@ struct ExperimentConfig {
   SweptVolumesConfig swept_volumes;       ///< of the planners that ask them
   HalfStepConfig half_step;               ///< of all half-steps
   SmoothingConfig smoothing;              ///< methods, limits and margins
+  bool has_replay = false;                ///< whether certified walks are played
+  ReplayConfig replay;                    ///< used when has_replay
   std::string output_directory;           ///< "": `runs/<name>` in the working directory
   std::optional<double> output_period;    ///< of trajectory.csv [s]; none: as its ZMP shifts
   int seed = 1;                           ///< of planners' random numbers

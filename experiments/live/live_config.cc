@@ -222,6 +222,9 @@ void DeclareFields(Fields& fields, LiveConfig* config, const Scene* scene) {
   fields.Group("live", {.meaning = "the episode", .required = true}, [&](Fields& f) {
     DeclareLive(f, &config->live, config->experiment.half_step.duration, scene);
   });
+  if (config->experiment.has_replay) {
+    fields.Complain("replay", "is of runs (valid: `halfstep replay` of the episode)");
+  }
   if (!config->experiment.has_goal) {
     fields.Complain("goal", "is missing (valid: an episode needs a goal)");
   }

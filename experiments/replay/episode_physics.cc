@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "experiments/replay/planned_row.h"
+#include "experiments/replay/robot_physics.h"
 #include "experiments/replay/simulated_obstacles.h"
 #include "planner/scene/no_step_areas.h"
 #include "wpg/nth.h"
@@ -27,12 +28,15 @@ ReferenceMotion EpisodePhysics::MotionAbout(const SuperposedWalk& walk, double b
 }
 
 EpisodePhysics::EpisodePhysics(const WholeRobot& robot, const TrueWorld& truth,
-                               const LiveOptions& options, const ModelOptions& model)
-    : robot_(robot), truth_(truth.SeenFrom([](double) { return Pose2(); })), model_(model) {
+                               const LiveOptions& options, const std::optional<ModelOptions>& model)
+    : robot_(robot),
+      truth_(truth.SeenFrom([](double) { return Pose2(); })),
+      options_(PlayOptionsOf(robot.model)),
+      model_(model.value_or(PhysicsOf(robot.model))) {
   options_.row_period = options.period;
   options_.drift_window = options.horizon;
   // A period is a whole number of time steps.
-  model_.timestep = options.period / std::ceil(options.period / model.timestep - 1e-9);
+  model_.timestep = options.period / std::ceil(options.period / model_.timestep - 1e-9);
 }
 
 void EpisodePhysics::Begin(const ReferenceMotion& motion, double waited) {
@@ -118,7 +122,7 @@ PhysicalOutcome EpisodePhysics::Finish(const Episode& episode) {
   outcome.replayed.duration = motion.end();
   ReplayResult& result = outcome.replayed.result;
   result = ResultOf(std::move(rows_), player_->touches(), motion.end(), player_->robot().weight(),
-                    options_.drift_window);
+                    options_);
   result.drift = player_->DriftFrom(motion);
   CompareMassModel(robot_.model, robot_.tree, motion, &result);
   return outcome;

@@ -34,9 +34,9 @@ struct PhysicalOutcome {
 class EpisodePhysics {
  public:
   /// Borrows `robot`. `truth`: what happens by the script; how the robot strays is simulated.
-  /// Precondition: WhyNoSimulation() is "".
+  /// `model`: none is PhysicsOf(robot). Precondition: WhyNoSimulation() is "".
   EpisodePhysics(const WholeRobot& robot, const TrueWorld& truth, const LiveOptions& options,
-                 const ModelOptions& model = {});
+                 const std::optional<ModelOptions>& model = {});
 
   /// Plays the period that begins at a tick, for EpisodeHooks::on_tick. What begins in it has been
   /// decided by then. A robot that has fallen stays as it is.

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 
 #include "experiments/replay/mujoco_geoms.h"
+#include "experiments/replay/robot_physics.h"
 #include "wpg/files/number_text.h"
 #include "wpg/nth.h"
 
@@ -104,7 +105,9 @@ class KeyWriter {
 std::string MujocoKeyframes(const RobotModel& robot, const RobotTree& tree,
                             const std::vector<SimulatedObstacle>& obstacles,
                             const std::vector<JointMotion>& motion) {
-  std::string text = MujocoModel(robot, tree, {.obstacles_placed = true}, obstacles);
+  ModelOptions options = PhysicsOf(robot);
+  options.obstacles_placed = true;
+  std::string text = MujocoModel(robot, tree, options, obstacles);
   text.resize(text.size() - kEnd.size());
   if (!obstacles.empty()) {
     text += "  <custom>\n";

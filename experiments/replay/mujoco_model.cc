@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <array>
+#include <cmath>
 
 #include "experiments/replay/mujoco_geoms.h"
 #include "wpg/files/number_text.h"
@@ -15,6 +16,8 @@ using Eigen::Isometry3d;
 
 // Half of the thickness of a sole's box [m].
 constexpr double kSoleHalf = 0.005;
+// Half of the thickness of a plate's box, most of which is below the floor [m].
+constexpr double kPlateHalf = 0.1;
 // Principal moments of inertia below it are raised to it [kg m²]; MuJoCo refuses those of 0, which
 // links of sensors have.
 constexpr double kLeastInertia = 1e-6;
@@ -59,9 +62,8 @@ class Writer {
              Attribute("boundinertia", ShortestText(kLeastInertia)) + "/>\n";
     text_ += "  <option integrator=\"implicit\" cone=\"elliptic\"" +
              Attribute("timestep", ShortestText(options_.timestep)) + "/>\n  <worldbody>\n";
-    text_ += std::string("    <geom name=\"floor\" type=\"plane\" size=\"0 0 1\"") + kFloorBits +
-             Contact() + "/>\n";
-    AddLink(0, "    ");
+    AddFloor();
+    AddLink(0, "    ", false);
     for (size_t i = 0; i < obstacles_.size(); ++i) AddObstacle(i);
     text_ += "  </worldbody>\n";
     if (!assets_.empty()) text_ += "  <asset>\n" + assets_ + "  </asset>\n";
@@ -115,6 +117,19 @@ class Writer {
     }
   }
 
+  void AddFloor() {
+    const SimulatedFloor& floor = options_.floor;
+    const bool level = floor.X_WFloor.matrix().isIdentity(0.0);
+    text_ += std::string("    <geom name=\"floor\" type=\"plane\" size=\"0 0 1\"") +
+             (level ? "" : PlaceAttributes(floor.X_WFloor)) + kFloorBits + Contact() + "/>\n";
+    for (const FloorPlate& plate : floor.plates) {
+      const Eigen::Vector3d half(plate.size.x() / 2, plate.size.y() / 2, kPlateHalf);
+      const Isometry3d X = floor.X_WFloor * plate.X_FP * Eigen::Translation3d(0, 0, -kPlateHalf);
+      text_ += std::string("    <geom type=\"box\"") + Attribute("size", Numbers(half)) +
+               PlaceAttributes(X) + kFloorBits + Contact() + "/>\n";
+    }
+  }
+
   // Moved from outside, by nothing else.
   void AddObstacle(size_t index) {
     std::string place;
@@ -126,7 +141,8 @@ class Writer {
     text_ += "    </body>\n";
   }
 
-  void AddLink(int index, const std::string& indent) {
+  // `on_leg`: whether a joint of a leg moves the link that this one hangs on.
+  void AddLink(int index, const std::string& indent, bool on_leg) {
     const UrdfLink& link = Nth(tree_.urdf.links, index);
     const std::string inner = indent + "  ";
     Isometry3d X = Isometry3d::Identity();
@@ -136,6 +152,7 @@ class Writer {
       X = joint.X_ParentChild;
       joint_text.clear();
       if (IsLegJoint(joint.name)) {
+        on_leg = true;
         joint_text = "<joint" + Attribute("name", joint.name) +
                      Attribute("axis", Numbers(joint.axis)) +
                      Attribute("armature", ShortestText(options_.armature)) + "/>";
@@ -146,7 +163,10 @@ class Writer {
     }
     text_ += indent + "<body" + Attribute("name", BodyName(link.name)) + PlaceAttributes(X) + ">\n";
     if (!joint_text.empty()) text_ += inner + joint_text + "\n";
-    if (link.mass > 0) AddMass(link, inner);
+    for (const Side side : {Side::kLeft, Side::kRight}) {
+      if (options_.ankle && LinkOf(Index(side), 5) == index) AddBush(side, inner);
+    }
+    if (link.mass > 0) AddMass(link, on_leg ? link.com : ShiftedCom(index), inner);
     AddBodies(index, inner);
     for (const Side side : {Side::kLeft, Side::kRight}) {
       if (LinkOf(Index(side), 5) == index) AddSole(side, inner);
@@ -154,15 +174,24 @@ class Writer {
     for (size_t child = 0; child < tree_.urdf.links.size(); ++child) {
       const int joint = tree_.urdf.links[child].joint;
       if (joint >= 0 && Nth(tree_.urdf.joints, joint).parent == index) {
-        AddLink(static_cast<int>(child), inner);
+        AddLink(static_cast<int>(child), inner, on_leg);
       }
     }
     text_ += indent + "</body>\n";
   }
 
-  void AddMass(const UrdfLink& link, const std::string& indent) {
+  // Of a link that no leg moves.
+  Eigen::Vector3d ShiftedCom(int index) const {
+    const Eigen::Vector3d& com = Nth(tree_.urdf.links, index).com;
+    if (options_.com_shift.isZero(0.0)) return com;
+    const std::vector<Isometry3d> X = tree_.urdf.LinkPoses(tree_.posture);
+    const Eigen::Vector3d shift_B(options_.com_shift.x(), options_.com_shift.y(), 0.0);
+    return com + Nth(X, index).linear().transpose() * (Nth(X, tree_.waist).linear() * shift_B);
+  }
+
+  void AddMass(const UrdfLink& link, const Eigen::Vector3d& com, const std::string& indent) {
     const Eigen::Matrix3d I = WithLeastInertia(link.inertia);
-    text_ += indent + "<inertial" + Attribute("pos", Numbers(link.com)) +
+    text_ += indent + "<inertial" + Attribute("pos", Numbers(com)) +
              Attribute("mass", ShortestText(link.mass));
     if (options_.principal_axes) {
       const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(I);
@@ -178,15 +207,35 @@ class Writer {
     text_ += Attribute("fullinertia", Numbers(inertia)) + "/>\n";
   }
 
+  // The sole of a leg, seen from the link that its last joint moves.
+  Isometry3d X_LinkSole(Side side) const {
+    const Leg& leg = Nth(robot_.legs, Index(side));
+    return leg.joints[5].X_BLink.inverse() * leg.X_BSole;
+  }
+
+  // Hinges without names, which could be those of the URDF's joints.
+  void AddBush(Side side, const std::string& indent) {
+    const Eigen::Matrix3d R_LinkSole = X_LinkSole(side).linear();
+    for (const int axis : {1, 0}) {
+      text_ += indent + "<joint" + Attribute("axis", Numbers(R_LinkSole.col(axis).eval())) +
+               Attribute("stiffness", ShortestText(options_.ankle->stiffness)) +
+               Attribute("damping", ShortestText(options_.ankle->damping)) + "/>\n";
+    }
+  }
+
   // On the link that the last joint of the leg moves. Its lower face is the sole.
   void AddSole(Side side, const std::string& indent) {
-    const Leg& leg = Nth(robot_.legs, Index(side));
-    const Isometry3d X_LinkSole = leg.joints[5].X_BLink.inverse() * leg.X_BSole;
-    const Isometry3d X = X_LinkSole * Eigen::Translation3d(0, 0, kSoleHalf);
+    const Isometry3d X = X_LinkSole(side) * Eigen::Translation3d(0, 0, kSoleHalf);
     const Eigen::Vector3d half(robot_.sole_size.x() / 2, robot_.sole_size.y() / 2, kSoleHalf);
     text_ += indent + "<geom" + Attribute("name", std::string(Name(side)) + "_sole") +
              " type=\"box\" mass=\"0\"" + kSoleBits + Attribute("size", Numbers(half)) +
              PlaceAttributes(X) + Contact() + "/>\n";
+  }
+
+  static std::string TorqueLimit(const LegJoint& joint) {
+    if (std::isinf(joint.max_torque)) return "";
+    const std::string most = ShortestText(joint.max_torque);
+    return " forcelimited=\"true\"" + Attribute("forcerange", "-" + most + " " + most);
   }
 
   // Torque = stiffness (u − q) − damping q̇, where u is the control.
@@ -195,7 +244,7 @@ class Writer {
              " biastype=\"affine\"" + Attribute("gainprm", ShortestText(options_.stiffness)) +
              Attribute("biasprm", "0 " + ShortestText(-options_.stiffness) + " " +
                                       ShortestText(-options_.damping)) +
-             "/>\n";
+             (options_.torque_limits ? TorqueLimit(joint) : "") + "/>\n";
   }
 
   const RobotModel& robot_;

@@ -1,16 +1,25 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "experiments/replay/simulated_floor.h"
 #include "experiments/replay/simulated_obstacles.h"
 #include "wpg/robot/robot_model.h"
 #include "wpg/robot/robot_tree.h"
 
 namespace halfstep::replay {
 
-/// What the simulated robot is made of beside its URDF. Documented in experiments/README.md,
-/// "Replay".
+/// What turns a joint back to where it shall be.
+struct JointSpring {
+  double stiffness = 0.0;  ///< [N m/rad]
+  double damping = 0.0;    ///< [N m s/rad]
+};
+
+/// What the simulated robot is made of beside its URDF; the numbers are HRP-2's (PhysicsOf() has
+/// those of other sizes). Documented in experiments/README.md, "Replay".
 struct ModelOptions {
   double timestep = 0.0005;  ///< [s]; half or twice of it changes the ZMP's error by a millimetre
   /// Friction of the soles on the floor. At 0.2 the walks are the same; at 0.05 soles slip by
@@ -27,6 +36,13 @@ struct ModelOptions {
   bool principal_axes = false;
   bool obstacles_placed =
       false;  ///< where they are at t = 0; else at the origin until they are moved
+  /// A passive bush between the last joint of each leg and all that it moves: hinges about the
+  /// sole's y and x through the frame of that joint. None: the ankle is rigid.
+  std::optional<JointSpring> ankle;
+  /// Whether servos give no more than LegJoint::max_torque.
+  bool torque_limits = false;
+  Eigen::Vector2d com_shift{0, 0};  ///< of all links that no leg moves, along x and y of B [m]
+  SimulatedFloor floor;             ///< what the soles stand on
 };
 
 /// The name of a link's body. MuJoCo calls its own root "world" and refuses a second body of that
@@ -34,7 +50,7 @@ struct ModelOptions {
 /// so on. Every other name is the link's.
 std::string BodyName(const std::string& link);
 
-/// The robot as a MuJoCo model (MJCF), standing on the floor z = 0: the URDF's links with their
+/// The robot as a MuJoCo model (MJCF), standing on the floor: the URDF's links with their
 /// masses and inertias, a free base, hinges in the legs with servos (actuators: left leg from the
 /// hip, then right), every other joint welded in the standing posture, and soles as boxes that
 /// touch the floor and nothing else. Names are the URDF's, those of links as BodyName() says; soles

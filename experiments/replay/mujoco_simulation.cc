@@ -101,6 +101,8 @@ struct Simulation::State {
   Eigen::Isometry3d Body(int id) const { return Pose(data->xpos + 3 * id, data->xmat + 9 * id); }
   // The obstacle that a geom is of, −1: none.
   int ObstacleOf(int geom) const { return model()->body_mocapid[model()->geom_bodyid[geom]]; }
+  // Whether a geom is the floor or a plate on it: nothing else is fixed to the world.
+  bool IsFloor(int geom) const { return model()->geom_bodyid[geom] == 0; }
   // The force of a contact's first geom on its second, in W.
   Vector3d ForceOf(int contact) const {
     std::array<mjtNum, 6> local{};
@@ -159,6 +161,18 @@ double Simulation::weight() const {
   return state_->model()->body_subtreemass[kRoot] * -state_->model()->opt.gravity[2];
 }
 
+Eigen::Isometry3d Simulation::X_WFloor() const {
+  const mjModel& model = *state_->model();
+  const int floor = state_->layout->floor;
+  const mjtNum *const p = model.geom_pos + 3 * floor, *const q = model.geom_quat + 4 * floor;
+  return Eigen::Translation3d(p[0], p[1], p[2]) * Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
+}
+
+Eigen::Vector2d Simulation::sole_size() const {
+  const mjtNum* const half = state_->model()->geom_size + 3 * state_->layout->soles[0];
+  return {2 * half[0], 2 * half[1]};
+}
+
 void Simulation::Place(const Eigen::Isometry3d& X_WB, const std::array<Vector6d, 2>& q) {
   mjData* data = state_->data.get();
   mj_resetData(state_->model(), data);
@@ -209,10 +223,11 @@ FloorForces Simulation::Step(const JointTargets& targets, const Eigen::Vector3d&
   FloorForces forces;
   for (int i = 0; i < data->ncon; ++i) {
     const mjContact& contact = data->contact[i];
-    if (contact.geom1 != layout.floor) continue;
+    if (!state_->IsFloor(contact.geom1)) continue;  // it comes before the soles
     const Vector3d force = state_->ForceOf(i);
     const Eigen::Map<const Vector3d> place(contact.pos);
     const size_t side = contact.geom2 == layout.soles[0] ? 0 : 1;
+    forces.pressure += force.z() * place.head<2>();
     forces.vertical[side] += force.z();
     forces.moment += force.z() * place.head<2>() - place.z() * force.head<2>();
   }

@@ -19,6 +19,8 @@ Simulation::~Simulation() = default;
 Simulation::Simulation(const Simulation&) { throw std::logic_error(WhyNoSimulation()); }
 double Simulation::timestep() const { throw std::logic_error(WhyNoSimulation()); }
 double Simulation::weight() const { throw std::logic_error(WhyNoSimulation()); }
+Eigen::Isometry3d Simulation::X_WFloor() const { throw std::logic_error(WhyNoSimulation()); }
+Eigen::Vector2d Simulation::sole_size() const { throw std::logic_error(WhyNoSimulation()); }
 void Simulation::Place(const Eigen::Isometry3d&, const std::array<Vector6d, 2>&) {
   throw std::logic_error(WhyNoSimulation());
 }

@@ -7,6 +7,7 @@
 
 #include "wpg/elementary.h"
 #include "wpg/geometry/rotation.h"
+#include "wpg/geometry/support_polygon.h"
 #include "wpg/nth.h"
 
 namespace halfstep::replay {
@@ -36,18 +37,34 @@ Pose2 OnFloor(const Eigen::Isometry3d& X_WB) {
 Player::Player(const Simulation& robot, const ReferenceMotion& motion, const PlayOptions& options)
     : robot_(robot), options_(options) {
   const TrajectoryRow& first = motion.rows().front();
-  robot_.Place(first.X_WB(), first.q);
+  robot_.Place(robot_.X_WFloor() * first.X_WB(), first.q);
   const JointTargets targets = motion.TargetsAt(first.t);
   const long steps = std::lround(options.settle / robot_.timestep());
   for (long i = 0; i < steps; ++i) robot_.Step(targets, Eigen::Vector3d::Zero());
 }
 
-double Player::SlipOf(Side side, bool carries) {
-  std::optional<Eigen::Vector2d>& anchor = Nth(anchors_, Index(side));
-  const Eigen::Vector2d here = robot_.X_WSole(side).translation().head<2>();
+Player::Creep Player::CreepOf(Side side, bool carries) {
+  std::optional<Pose2>& anchor = Nth(anchors_, Index(side));
+  const Pose2 here = OnFloor(robot_.X_WSole(side));
   if (!carries) anchor.reset();
-  if (carries && !anchor) anchor = here;
-  return carries ? (here - *anchor).norm() : 0.0;
+  if (!carries) return {};
+  if (!anchor) anchor = here;
+  return {(here.position() - anchor->position()).norm(),
+          std::abs(std::remainder(here.yaw - anchor->yaw, 2 * std::numbers::pi))};
+}
+
+double Player::EdgeOf(const Eigen::Vector2d& pressure,
+                      const std::array<double, 2>& vertical) const {
+  const double least = kCarries * robot_.weight();
+  const Pose2 left = OnFloor(robot_.X_WSole(Side::kLeft));
+  const Pose2 right = OnFloor(robot_.X_WSole(Side::kRight));
+  const Eigen::Vector2d size = robot_.sole_size();
+  if (vertical[0] > least && vertical[1] > least) {
+    return SupportPolygon(left, right, size).Margin(pressure);
+  }
+  if (vertical[0] > least) return SupportPolygon(left, size).Margin(pressure);
+  if (vertical[1] > least) return SupportPolygon(right, size).Margin(pressure);
+  return std::numeric_limits<double>::quiet_NaN();
 }
 
 double Player::DriftFrom(const ReferenceMotion& motion) const {
@@ -68,7 +85,7 @@ ReplayRow Player::Advance(const ReferenceMotion& motion, const std::optional<Pus
   const double dt = robot_.timestep();
   const double begin = static_cast<double>(row_) * options_.row_period;
   const long steps = std::lround(options_.row_period / dt);
-  Eigen::Vector2d moment(0, 0);
+  Eigen::Vector2d moment(0, 0), pressure(0, 0);
   ReplayRow row;
   for (long i = 0; i < steps; ++i) {
     // The targets of where the step ends.
@@ -84,6 +101,7 @@ ReplayRow Player::Advance(const ReferenceMotion& motion, const std::optional<Pus
     touches_.Note(t - dt, touches, motion.RestsAt(t - dt));
     for (const Touch& touch : touches) row.touch = std::max(row.touch, touch.force);
     moment += floor.moment;
+    pressure += floor.pressure;
     for (size_t side = 0; side < 2; ++side) row.vertical[side] += floor.vertical[side];
   }
   t_ = static_cast<double>(++row_) * options_.row_period;
@@ -110,12 +128,15 @@ ReplayRow Player::Advance(const ReferenceMotion& motion, const std::optional<Pus
     double& force = Nth(row.vertical, Index(side));
     force /= static_cast<double>(steps);
     const bool carries = Nth(planned.stands, Index(side)) && force > kCarries * robot_.weight();
-    row.slip = std::max(row.slip, SlipOf(side, carries));
+    const Creep creep = CreepOf(side, carries);
+    row.slip = std::max(row.slip, creep.slip);
+    row.turn = std::max(row.turn, creep.turn);
     if (!carries || force <= most) continue;
     most = force;
     row.support = side;
     row.support_drift = DriftOfSole(Nth(planned.soles, Index(side)), OnFloor(robot_.X_WSole(side)));
   }
+  row.edge = EdgeOf(pressure / total, row.vertical);
   const Eigen::Vector3d shift(row.support_drift[0], row.support_drift[1], 0.0);
   row.stray = StrayFrom(motion.RowAt(t_), shift);
   return row;

@@ -15,6 +15,7 @@ struct PlayOptions {
   double row_period = 0.005;  ///< what is measured is averaged over it [s]
   double fallen_tilt = 0.7;   ///< the waist leans by more: fallen [rad]
   double drift_window = 2.0;  ///< of SupportDrift::within_window [s]
+  double edge = 0.003;        ///< so near to its edge the support is as good as tilting [m]
 };
 
 /// A push: a constant force on the waist.
@@ -36,6 +37,10 @@ struct ReplayRow {
   std::array<double, 2> vertical{};  ///< force on each sole, by Index(Side) [N]
   /// How far a carrying sole's centre is from where it took up load, the larger of both [m].
   double slip = 0.0;
+  double turn = 0.0;  ///< the same of its yaw [rad]
+  /// How far inside the support polygon of the soles that carry the pressure point is [m]; nan: no
+  /// sole carries, whatever was planned.
+  double edge = 0.0;
   std::optional<Side> support;  ///< the sole that carries more of those planned to stand, if any
   /// Of that sole, simulated less planned: x, y in W [m], yaw [rad]; nan: none carries.
   Eigen::Vector3d support_drift{0, 0, 0};
@@ -53,7 +58,7 @@ Pose2 OnFloor(const Eigen::Isometry3d& X_WB);
 /// continues independently.
 class Player {
  public:
-  /// Places the robot in the first row's posture and lets it settle.
+  /// Places the robot on its floor in the first row's posture and lets it settle.
   Player(const Simulation& robot, const ReferenceMotion& motion, const PlayOptions& options);
 
   double time() const { return t_; }                  ///< played so far [s]
@@ -67,14 +72,20 @@ class Player {
   const std::vector<TouchRecord>& touches() const { return touches_.records(); }
 
  private:
-  double SlipOf(Side side, bool carries);
+  // How far a sole is from where it took up load: on the floor [m], in yaw [rad].
+  struct Creep {
+    double slip = 0.0, turn = 0.0;
+  };
+  Creep CreepOf(Side side, bool carries);
+  // ReplayRow::edge for the pressure point in W; `vertical` is the force on each sole.
+  double EdgeOf(const Eigen::Vector2d& pressure, const std::array<double, 2>& vertical) const;
   double StrayFrom(const TrajectoryRow& planned, const Eigen::Vector3d& shift) const;
 
   Simulation robot_;
   PlayOptions options_;
   long row_ = 0;
   double t_ = 0.0;
-  std::array<std::optional<Eigen::Vector2d>, 2> anchors_;  // where each carrying sole took up load
+  std::array<std::optional<Pose2>, 2> anchors_;  // where each carrying sole took up load
   TouchLog touches_;
 };
 

@@ -43,22 +43,27 @@ PushLimit FindLimit(const Player& player, const ReferenceMotion& motion, double 
 }  // namespace
 
 ReplayResult ResultOf(std::vector<ReplayRow> rows, const std::vector<TouchRecord>& touches,
-                      double walk_end, double weight, double window) {
+                      double walk_end, double weight, const PlayOptions& options) {
   ReplayResult result;
   double squares = 0.0, vertical = 0.0;
-  long measured = 0, walked = 0;
+  long measured = 0, walked = 0, carried = 0, at_edge = 0, flown = 0;
   std::vector<DriftSample> drift;
   for (const ReplayRow& row : rows) {
     result.stayed_up = result.stayed_up && !row.fallen;
     result.ended = row.t;
     result.largest_tilt = std::max(result.largest_tilt, row.tilt);
     result.slip = std::max(result.slip, row.slip);
+    result.turn = std::max(result.turn, row.turn);
+    result.peak = std::max(result.peak, (row.vertical[0] + row.vertical[1]) / weight);
+    if (std::isnan(row.edge)) ++flown;
     if (!std::isnan(row.stray)) {
       result.stray = std::max(result.stray, row.stray);
       drift.push_back({row.t, row.support_drift});
     }
     if (row.t > walk_end) continue;
     ++walked;
+    if (!std::isnan(row.edge)) ++carried;
+    if (row.edge < options.edge) ++at_edge;
     vertical += row.vertical[0] + row.vertical[1];
     const double error = row.zmp_error.norm();
     if (std::isnan(error)) continue;
@@ -66,7 +71,9 @@ ReplayResult ResultOf(std::vector<ReplayRow> rows, const std::vector<TouchRecord
     squares += error * error;
     result.zmp_largest = std::max(result.zmp_largest, error);
   }
-  result.support = DriftOf(drift, window);
+  result.support = DriftOf(drift, options.drift_window);
+  result.flight = static_cast<double>(flown) * options.row_period;
+  if (carried > 0) result.edge_share = static_cast<double>(at_edge) / static_cast<double>(carried);
   result.touches = touches;
   if (measured > 0) result.zmp_rms = std::sqrt(squares / static_cast<double>(measured));
   if (walked > 0) result.weight_share = vertical / static_cast<double>(walked) / weight;
@@ -75,14 +82,14 @@ ReplayResult ResultOf(std::vector<ReplayRow> rows, const std::vector<TouchRecord
 }
 
 ReplayResult Play(const Simulation& robot, const ReferenceMotion& motion,
-                  const PlayOptions& options) {
+                  const PlayOptions& options, const std::optional<Push>& push) {
   Player player(robot, motion, options);
   std::vector<ReplayRow> rows;
   while (player.time() < motion.end() + options.hold && (rows.empty() || !rows.back().fallen)) {
-    rows.push_back(player.Advance(motion, std::nullopt));
+    rows.push_back(player.Advance(motion, push));
   }
-  ReplayResult result = ResultOf(std::move(rows), player.touches(), motion.end(), robot.weight(),
-                                 options.drift_window);
+  ReplayResult result =
+      ResultOf(std::move(rows), player.touches(), motion.end(), robot.weight(), options);
   result.drift = player.DriftFrom(motion);
   return result;
 }

@@ -80,6 +80,14 @@ std::string SupportText(const Replayed& replayed) {
              1e3 * support.within_window, replayed.window, 1e3 * replayed.result.stray);
 }
 
+std::string SolesText(const ReplayResult& result) {
+  return Formatted(
+      "  pressure at the edge of the soles for %.1f %% of the time, at most %.2f weights, %.3f s "
+      "in "
+      "flight, carrying soles turn by %.2f deg\n",
+      100 * result.edge_share, result.peak, result.flight, result.turn / kDegree);
+}
+
 ordered_json TouchJson(const Replayed& replayed) {
   ordered_json json = ordered_json::array();
   for (const TouchRecord& touch : replayed.result.touches) {
@@ -118,7 +126,11 @@ ordered_json Json(const Replayed& replayed) {
                          {"largest_shift_m", support.largest_shift},
                          {"window_s", replayed.window},
                          {"within_window_m", support.within_window}}},
-                       {"stray_m", result.stray}};
+                       {"stray_m", result.stray},
+                       {"edge_share", result.edge_share},
+                       {"peak_weights", result.peak},
+                       {"flight_s", result.flight},
+                       {"sole_turn_rad", result.turn}};
   if (!replayed.obstacles.empty()) {
     json["touches_walking"] = TouchesOf(replayed, false).size();
     json["touches_at_rest"] = TouchesOf(replayed, true).size();
@@ -147,7 +159,7 @@ std::string ReplayText(const Replayed& replayed) {
           replayed.duration, result.largest_tilt / kDegree, 1e3 * result.zmp_rms,
           1e3 * result.zmp_largest, 1e3 * result.model_rms, 1e3 * result.model_largest,
           1e3 * result.slip, 1e3 * result.drift);
-  text += SupportText(replayed);
+  text += SupportText(replayed) + SolesText(result);
   if (!replayed.obstacles.empty()) {
     text += TouchText(replayed, false);
     if (!TouchesOf(replayed, true).empty()) text += TouchText(replayed, true);

@@ -32,9 +32,8 @@ std::string ReplayJson(const std::string& run, const std::vector<std::string>& n
 
 /// What a simulation proves: nothing.
 inline constexpr const char* kReplayDisclaimer =
-    "This is one simulation: soft point contacts, ideal servos without torque limits, the URDF's\n"
-    "masses with estimated inertias, an upper body without joints. It guarantees nothing about "
-    "the\n"
-    "robot, and its falls are not proofs either.";
+    "This is simulation: soft point contacts, servos without delay or friction, whose torque is\n"
+    "limited with --torque-limits only, the URDF's masses with estimated inertias, an upper body\n"
+    "without joints. It guarantees nothing about the robot, and its falls are not proofs either.";
 
 }  // namespace halfstep::replay

@@ -26,7 +26,8 @@ struct JointTargets {
 /// What the floor does to the robot during a time step, in W.
 struct FloorForces {
   std::array<double, 2> vertical{};  ///< on each sole, by Index(Side) [N]
-  Eigen::Vector2d moment{0, 0};  ///< Σ vertical · place [N m]; / Σ vertical: the measured ZMP
+  Eigen::Vector2d moment{0, 0};    ///< Σ vertical · place [N m]; / Σ vertical: the measured ZMP
+  Eigen::Vector2d pressure{0, 0};  ///< the same, places seen from above whatever their height
   double total() const { return vertical[0] + vertical[1]; }  ///< of both soles [N]
 };
 
@@ -66,6 +67,10 @@ class Simulation {
   double timestep() const;  ///< [s]
   /// The weight of the model [N].
   double weight() const;
+  /// The model's floor (SimulatedFloor).
+  Eigen::Isometry3d X_WFloor() const;
+  /// Length and width of a sole [m].
+  Eigen::Vector2d sole_size() const;
 
   /// Places the robot at rest with the waist at X_WB, and the obstacles where they are at t = 0.
   void Place(const Eigen::Isometry3d& X_WB, const std::array<Vector6d, 2>& q);

@@ -23,6 +23,8 @@ export function summaryTable(parent, walks, families, endings) {
   const unit = Object.fromEntries(families.map((family) => [family.name, family.unit]));
   const compared = walks.some((walk) => walk.gap !== undefined);
   const bounded = walks.some((walk) => Number.isFinite(walk.summary.gap_lipm));
+  const replayed = walks.some((walk) => walk.summary.stands !== undefined);
+  const degrees = (rad) => (Number.isFinite(rad) ? `, ${number(rad * 180 / Math.PI, 2)}°` : "");
   const rows = walks.map((walk) => {
     const s = walk.summary;
     const above = Number.isFinite(s.gap_lipm) ? `${number(100 * s.gap_lipm, 3)} %` : "–";
@@ -34,12 +36,14 @@ export function summaryTable(parent, walks, families, endings) {
                      title: endings[s.status], className: s.own ? "" : "no" };
     return [walk.label, element("span", status), verdict(walk),
             seconds(s.duration_s), bar(s.duration_s / longest, "a"), s.speedup.toFixed(2),
-            ...(bounded ? [above] : []), ...last, number(s.effort, 3), number(s.wall_s, 3)];
+            ...(bounded ? [above] : []),
+            ...(replayed ? [`${s.stands ?? "–"}${degrees(s.replay_tilt_rad)}`] : []), ...last, number(s.effort, 3), number(s.wall_s, 3)];
   });
   parent.replaceChildren(
     element("h2", { text: "Methods" }),
     table(["method", "status", "for all t", "duration [s]", "", "speed-up",
            ...(bounded ? ["above the bound"] : []),
+           ...(replayed ? ["simulated: stands, median tilt"] : []),
            ...(compared ? ["gap to the best"] : ["worst margin", "candidates"]),
            "effort", "run time [s]"], rows),
   );

@@ -16,6 +16,7 @@
 #include "smoothing/methods/overlap_prices.h"
 #include "smoothing/methods/plan_repair.h"
 #include "smoothing/methods/run_smoother.h"
+#include "wpg/files/input_error.h"
 #include "wpg/files/text.h"
 #include "wpg/nth.h"
 
@@ -77,6 +78,10 @@ bool TakesGiven(const ExperimentConfig& config) {
 
 ExperimentRun::ExperimentRun(const ExperimentConfig& config, const RunHooks& hooks)
     : config_(config) {
+  if (config.has_replay && !hooks.replay) {
+    throw InputError(
+        {"replay: walks are not simulated here (valid: in `halfstep run` and `sweep`)"});
+  }
   Place place = LoadPlace(config);
   if (config.has_goal) {
     planned_ = PlanWalk(
@@ -193,6 +198,22 @@ void ExperimentRun::Certify(const std::stop_token& stop) {
   }
 }
 
+void ExperimentRun::Replay(const RunHooks& hooks) {
+  if (!config_.has_replay) return;
+  for (MethodRun& run : runs_) {
+    if (run.certified.answer.verdict != Verdict::kFeasible) continue;
+    const auto same = std::ranges::find_if(runs_, [&run](const MethodRun& other) {
+      return other.trajectory.text == run.trajectory.text;
+    });
+    if (&*same != &run) {  // a method that kept another one's walk
+      run.replay = same->replay;
+      continue;
+    }
+    hooks.progress("replay of " + run.method, 0.0);
+    run.replay = hooks.replay(*experiment_, run.trajectory.text, hooks.stop);
+  }
+}
+
 void ExperimentRun::WriteMethod(const MethodRun& run, const ExperimentConfig& named,
                                 RunFolder* folder) const {
   const std::string place = MethodFolder(run.method) + "/";
@@ -228,7 +249,7 @@ void ExperimentRun::Write(RunFolder* folder) const {
   if (!infeasible_.empty()) {
     folder->Write("infeasible.json", InfeasibleJsonText(*problem_, infeasible_));
   }
-  WriteCsv("summary", SummaryCsv(evaluator(), runs_), folder);
+  WriteCsv("summary", SummaryCsv(evaluator(), runs_, config_.has_replay), folder);
   folder->Write("manifest.json", ManifestJson(*experiment_, resolved,
                                               problem_->test().Description(), runs_, wall.count()));
 }

@@ -31,6 +31,7 @@ struct RunHooks {
   std::stop_token stop_step = {};  ///< requested later; also ends a proof under way
   /// Called when the planned motion is found feasible: from then on there is something to keep.
   std::function<void()> keep = {};
+  WalkReplayer replay = {};  ///< plays walks where the config asks for that; else may be empty
 };
 
 /// Why there is nothing to smooth.
@@ -43,7 +44,8 @@ struct RunRefusal {
 /// certified, written.
 class ExperimentRun {
  public:
-  /// Plans and loads, also the walk of the method `given`. Throws InputError.
+  /// Plans and loads, also the walk of the method `given`. Throws InputError, also for a config
+  /// that asks for a replay where nothing plays walks.
   ExperimentRun(const ExperimentConfig& config, const RunHooks& hooks);
   ExperimentRun(const ExperimentRun&) = delete;
   ExperimentRun& operator=(const ExperimentRun&) = delete;
@@ -64,6 +66,9 @@ class ExperimentRun {
   /// that says that it worked, and whose walk is not accepted now, has failed (JudgeAtTheEnd).
   /// Must be called before Write().
   void Certify(const std::stop_token& stop);
+  /// Plays every certified walk on simulated robots where the config asks for it. Must be called
+  /// between Certify() and Write().
+  void Replay(const RunHooks& hooks);
 
   /// The config with planned footsteps in place of a goal.
   const ExperimentConfig& config() const { return config_; }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "experiments/run/margin_words.h"
 #include "experiments/tables/answer_words.h"
@@ -141,6 +142,24 @@ std::string ClockCell(const MethodRun& run) {
   return words.empty() ? "" : " (" + words + ")";
 }
 
+// How the walks went on simulated robots.
+std::string Replays(const std::vector<MethodRun>& runs) {
+  std::string text = "\nsimulated, which proves nothing (experiments/README.md, Replay):\n";
+  for (const MethodRun& run : runs) {
+    const std::optional<WalkReplay>& replay = run.replay;
+    text += Formatted("  %-22s ", run.method.c_str());
+    if (!replay) {
+      text += "not replayed\n";
+      continue;
+    }
+    const bool falls = replay->stands < replay->seeds;
+    text += falls ? Formatted("falls in %d of %d", replay->seeds - replay->stands, replay->seeds)
+                  : "stands in " + replay->Standing();
+    text += Formatted(", median tilt %.1f deg\n", replay->median_tilt * 180 / std::numbers::pi);
+  }
+  return text;
+}
+
 // Rows of a Pareto curve.
 std::string Curve(const MethodRun& run) {
   std::string text;
@@ -171,6 +190,7 @@ std::string RunTable(const Experiment& experiment, const WalkProblem& problem,
         << ClearanceCell(evaluator, run) << " " << WorstCell(evaluator, run) << ClockCell(run)
         << "\n";
   }
+  if (experiment.config.has_replay) out << Replays(runs);
   for (const MethodRun& run : runs) {
     if (!IsUndecided(run)) continue;
     out << "\n"
@@ -221,6 +241,10 @@ std::string RunJson(const Experiment& experiment, const WalkProblem& problem,
                                {"lowest_apex_m", run.lowest_apex},
                                {"worst_margin", worst.value},
                                {"worst_margin_name", Name(worst.family)}});
+    if (run.replay) {
+      json["methods"].back()["replay"] = {{"stands", run.replay->Standing()},
+                                          {"median_tilt_rad", run.replay->median_tilt}};
+    }
     if (IsUndecided(run)) {
       json["methods"].back()["undecided"] =
           AnswerWords(evaluator, experiment.config.smoothing.certification, run.certified.answer);

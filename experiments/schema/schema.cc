@@ -36,7 +36,7 @@ CsvColumns TrajectoryColumns() {
 std::vector<TableSchema> Tables() {
   const Comparison none;
   SweepConfig sweep;
-  sweep.with_bound = true;
+  sweep.parts = {.bound = true, .replay = true};
   std::vector<TableSchema> tables = {
       {"run/footsteps", FootstepsCsv({}).columns},
       {"run/half_steps", HalfStepsColumns(HalfStepsExtent::kFootsteps)},
@@ -45,7 +45,7 @@ std::vector<TableSchema> Tables() {
       {"run/pareto", ParetoColumns(FamiliesWith({}))},
       {"run/iterates", IteratesCsv(MethodRun("")).columns},
       {"run/certificate", CertificateColumns()},
-      {"run/summary", SummaryColumns(true)},
+      {"run/summary", SummaryColumns(sweep.parts)},
       {"comparison/comparison", ComparisonColumns(true)},
       {"comparison/performance_profile", PerformanceProfileCsv(none).columns},
       {"comparison/anytime", AnytimeCsv(none).columns},

@@ -65,14 +65,16 @@ void Publish(const SweepFolder& folder, const SweepCase& one, const ExperimentCo
 
 }  // namespace
 
-ExitStatus DoSweepCase(const SweepFolder& folder, const SweepCase& one, std::stop_token stop) {
+ExitStatus DoSweepCase(const SweepFolder& folder, const SweepCase& one, std::stop_token stop,
+                       const ReplayerOf& replayer_of) {
   if (folder.IsDone(one)) return kSuccess;
   const auto begin = std::chrono::steady_clock::now();
   const auto wall = [begin] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   };
   const ExperimentConfig config = ConfigOf(folder, one);
-  const RunHooks hooks{.progress = [](const std::string&, double) {}, .stop = stop};
+  const RunHooks hooks{
+      .progress = [](const std::string&, double) {}, .stop = stop, .replay = replayer_of(config)};
   std::optional<ExperimentRun> run;
   SweepTables tables;
   bool smoothed = false;
@@ -85,6 +87,7 @@ ExitStatus DoSweepCase(const SweepFolder& folder, const SweepCase& one, std::sto
       run->Smooth(hooks);
       if (stop.stop_requested()) return kInterrupted;
       run->Certify(stop);
+      run->Replay(hooks);
       smoothed = true;
     }
   } catch (const std::logic_error& error) {  // a mistake of ours: the other cases go on

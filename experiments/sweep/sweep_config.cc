@@ -140,22 +140,25 @@ std::string MistakeInCases(const SweepConfig& config) {
   return "";
 }
 
-// Whether `reference/lipm` is among the methods of the first case, or of an axis.
-bool RunsBound(const SweepConfig& config) {
+// What its first case, or an axis, says of the columns of runs.csv.
+SummaryParts PartsOf(const SweepConfig& config) {
   constexpr char kBound[] = "reference/lipm";
+  SummaryParts parts;
   for (const SweepAxis& axis : config.vary) {
-    if (axis.values.empty()) return false;  // a mistake that is told elsewhere
+    if (axis.values.empty()) return {};  // a mistake that is told elsewhere
+    parts.replay = parts.replay || axis.key.starts_with("replay.");
     for (const std::string& value : axis.values) {
-      if (value.find(kBound) != std::string::npos) return true;
+      parts.bound = parts.bound || value.find(kBound) != std::string::npos;
     }
   }
   try {
-    const std::vector<std::string> methods =
-        LoadCase(config, SweepCaseAt(config, 0)).smoothing.methods;
-    return std::ranges::find(methods, kBound) != methods.end();
-  } catch (const InputError&) {
-    return false;  // which is told where the case is run
+    const ExperimentConfig first = LoadCase(config, SweepCaseAt(config, 0));
+    const std::vector<std::string>& methods = first.smoothing.methods;
+    parts.bound = parts.bound || std::ranges::find(methods, kBound) != methods.end();
+    parts.replay = parts.replay || first.has_replay;
+  } catch (const InputError&) {  // which is told where the case is run
   }
+  return parts;
 }
 
 // The first axis that advances together with this one; itself when it is that.
@@ -278,7 +281,7 @@ SweepConfig ParseSweep(const std::string& path, const std::string& text,
     if (!mistake.empty()) {
       fields.Complain("vary", mistake);
     } else if (there) {
-      config.with_bound = RunsBound(config);
+      config.parts = PartsOf(config);
     }
   });
   return config;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "experiments/config/experiment_config.h"
+#include "experiments/tables/result_tables.h"
 #include "wpg/files/fields.h"
 #include "wpg/files/key_description.h"
 #include "wpg/files/yaml_fields.h"
@@ -34,8 +35,8 @@ struct SweepConfig {
   std::string keep = "summary";  ///< or "all"
   std::string directory;         ///< of the file
   Toolbox tools = {};            ///< that its configs may name
-  /// Whether a case runs `reference/lipm`, so that runs.csv has gap_lipm.
-  bool with_bound = false;
+  /// Columns that runs.csv has since a case runs `reference/lipm`, or has the group `replay`.
+  SummaryParts parts;
 
   /// The base config as a path from the working directory.
   std::filesystem::path ConfigPath() const;

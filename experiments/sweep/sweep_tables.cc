@@ -26,7 +26,7 @@ CsvColumn ColumnOf(const SweepAxis& axis) {
 CsvColumns RunsColumns(const SweepConfig& sweep) {
   CsvColumns columns = {{"case", kString, "", "number of the case and hash of what it sets"}};
   for (const SweepAxis& axis : sweep.vary) columns.push_back(ColumnOf(axis));
-  for (const CsvColumn& column : SummaryColumns(sweep.with_bound)) {
+  for (const CsvColumn& column : SummaryColumns(sweep.parts)) {
     if (!HoldsTime(column.name)) columns.push_back(column);
   }
   columns.push_back({"message", kString, "", "of the method, or why there is no walk"});
@@ -87,7 +87,7 @@ SweepTables TablesOf(const SweepConfig& sweep, const SweepCase& one, const Exper
     const MethodRun& method = run.runs()[row];
     BeginRow(sweep, one, &runs);
     timings.Cell(one.id).Cell(method.method);
-    AddSummaryRow(run.evaluator(), run.runs(), row, sweep.with_bound,
+    AddSummaryRow(run.evaluator(), run.runs(), row, sweep.parts,
                   [&](const CsvColumn& column) -> CsvWriter& {
                     return HoldsTime(column.name) ? timings : runs;
                   });
@@ -102,7 +102,7 @@ SweepTables TablesOfFailure(const SweepConfig& sweep, const SweepCase& one,
   CsvWriter runs(RunsColumns(sweep)), timings(TimingsColumns());
   BeginRow(sweep, one, &runs);
   timings.Cell(one.id).Cell("none");
-  for (const CsvColumn& column : SummaryColumns(sweep.with_bound)) {
+  for (const CsvColumn& column : SummaryColumns(sweep.parts)) {
     CsvWriter& csv = HoldsTime(column.name) ? timings : runs;
     if (column.name == "status") {
       csv.Cell(status);

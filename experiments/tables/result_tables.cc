@@ -160,7 +160,7 @@ CsvFile IteratesCsv(const MethodRun& run) {
   return csv.file();
 }
 
-CsvColumns SummaryColumns(bool with_bound) {
+CsvColumns SummaryColumns(const SummaryParts& parts) {
   CsvColumns columns = {
       {"method", kString, "", "raw first"},
       {"status", kString, "", "how it ended: " + opt::EndingNames()},
@@ -182,20 +182,27 @@ CsvColumns SummaryColumns(bool with_bound) {
       {"gap_to_reference", kNumber, "1",
        "duration divided by that of the method `reference`, less 1; empty: it was not run"},
   };
-  if (with_bound) {
+  if (parts.bound) {
     columns.push_back({"gap_lipm", kNumber, "1",
                        "duration divided by the lower bound that `reference/lipm` proved, less 1; "
                        "empty: of that method itself, and of walks that move footsteps"});
+  }
+  if (parts.replay) {
+    columns.push_back({"stands", kString, "",
+                       "simulated robots that stayed up, of all: 8 of 8; none: not certified, so "
+                       "not simulated"});
+    columns.push_back(
+        {"replay_tilt_rad", kNumber, "rad", "median of their largest tilts; empty: not simulated"});
   }
   return columns;
 }
 
 void AddSummaryRow(const MarginEvaluator& evaluator, const std::vector<MethodRun>& runs,
-                   size_t index, bool with_bound, const SummaryCell& cell) {
+                   size_t index, const SummaryParts& parts, const SummaryCell& cell) {
   const MethodRun& run = runs[index];
   const SmoothingResult& result = run.result;
   const Margin& worst = WorstOf(run.margins, evaluator.limits());
-  const CsvColumns columns = SummaryColumns(with_bound);
+  const CsvColumns columns = SummaryColumns(parts);
   size_t column = 0;
   const auto next = [&]() -> CsvWriter& { return cell(columns[column++]); };
   std::optional<double> gap;
@@ -217,18 +224,23 @@ void AddSummaryRow(const MarginEvaluator& evaluator, const std::vector<MethodRun
   next().Cell(result.wall);
   next().Cell(result.time_to_first_improvement);
   next().Cell(gap);
-  if (!with_bound) return;
-  const std::optional<double> bound = BoundOf(runs);
-  const bool holds = bound && !result.lower_bound && MovesOfFootsteps(result.parameters).empty();
-  next().Cell(holds ? std::optional(run.duration / *bound - 1.0) : std::nullopt);
+  if (parts.bound) {
+    const std::optional<double> bound = BoundOf(runs);
+    const bool holds = bound && !result.lower_bound && MovesOfFootsteps(result.parameters).empty();
+    next().Cell(holds ? std::optional(run.duration / *bound - 1.0) : std::nullopt);
+  }
+  if (parts.replay) {
+    next().Cell(run.replay ? run.replay->Standing() : "none");
+    next().Cell(run.replay ? std::optional(run.replay->median_tilt) : std::nullopt);
+  }
 }
 
-CsvFile SummaryCsv(const MarginEvaluator& evaluator, const std::vector<MethodRun>& runs) {
-  // A column only of runs that know a bound, so that the tables of others stay as they are.
-  const bool with_bound = BoundOf(runs).has_value();
-  CsvWriter csv(SummaryColumns(with_bound));
+CsvFile SummaryCsv(const MarginEvaluator& evaluator, const std::vector<MethodRun>& runs,
+                   bool with_replay) {
+  const SummaryParts parts{.bound = BoundOf(runs).has_value(), .replay = with_replay};
+  CsvWriter csv(SummaryColumns(parts));
   for (size_t i = 0; i < runs.size(); ++i) {
-    AddSummaryRow(evaluator, runs, i, with_bound,
+    AddSummaryRow(evaluator, runs, i, parts,
                   [&csv](const CsvColumn&) -> CsvWriter& { return csv; });
     csv.EndRow();
   }

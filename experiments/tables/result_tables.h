@@ -13,6 +13,7 @@
 #include "experiments/tables/certificate_files.h"
 #include "experiments/tables/csv_columns.h"
 #include "experiments/tables/csv_writer.h"
+#include "experiments/tables/walk_replay.h"
 #include "smoothing/margins/margin_evaluator.h"
 #include "smoothing/methods/smoothing_result.h"
 #include "smoothing/walk/superposed_walk.h"
@@ -24,14 +25,15 @@ struct MethodRun {
   /// A method that has not run.
   explicit MethodRun(std::string name) : method(std::move(name)) {}
 
-  std::string method;        ///< the method's name
-  SmoothingResult result;    ///< what it returned
-  double processor = 0.0;    ///< processor time of this process while it ran [s]
-  double duration = 0.0;     ///< of the walk [s]
-  double lowest_apex = 0.0;  ///< least of the steps' highest sole heights [m]
-  MarginSet margins;         ///< smallest of each family, at the trajectory's instants
-  CertifiedWalk certified;   ///< verdict on the walk and its proof
-  CsvFile trajectory;        ///< trajectory.csv
+  std::string method;                ///< the method's name
+  SmoothingResult result;            ///< what it returned
+  double processor = 0.0;            ///< processor time of this process while it ran [s]
+  double duration = 0.0;             ///< of the walk [s]
+  double lowest_apex = 0.0;          ///< least of the steps' highest sole heights [m]
+  MarginSet margins;                 ///< smallest of each family, at the trajectory's instants
+  CertifiedWalk certified;           ///< verdict on the walk and its proof
+  CsvFile trajectory;                ///< trajectory.csv
+  std::optional<WalkReplay> replay;  ///< none: it was not simulated
 };
 
 /// Each table of a run folder; columns: experiments/README.md.
@@ -48,16 +50,22 @@ CsvFile ParetoCsv(const MarginEvaluator& evaluator, const HalfStepSequence& sequ
                   const MethodRun& run);
 /// One row a candidate of the method's search.
 CsvFile IteratesCsv(const MethodRun& run);
-/// Of summary.csv, one row a method; with gap_lipm, how far it is above the lower bound of
-/// `reference/lipm`, where a method knows that.
-CsvColumns SummaryColumns(bool with_bound = false);
+/// Columns of summary.csv that only some runs have, so that the tables of others stay as they are.
+struct SummaryParts {
+  bool bound = false;   ///< gap_lipm: how far the walk is above the bound of `reference/lipm`
+  bool replay = false;  ///< stands and tilt: how certified walks went on simulated robots
+};
+/// Of summary.csv, one row a method.
+CsvColumns SummaryColumns(const SummaryParts& parts = {});
 /// Gives the table into which a summary's cell of that column goes.
 using SummaryCell = std::function<CsvWriter&(const CsvColumn&)>;
-/// Adds the cells of one method's row, in the order of SummaryColumns(with_bound).
+/// Adds the cells of one method's row, in the order of SummaryColumns(parts).
 void AddSummaryRow(const MarginEvaluator& evaluator, const std::vector<MethodRun>& runs,
-                   size_t index, bool with_bound, const SummaryCell& cell);
-/// One row a method; speed-up against the first run, which is the planned motion.
-CsvFile SummaryCsv(const MarginEvaluator& evaluator, const std::vector<MethodRun>& runs);
+                   size_t index, const SummaryParts& parts, const SummaryCell& cell);
+/// One row a method; speed-up against the first run, which is the planned motion. `with_replay`:
+/// whether walks were to be simulated.
+CsvFile SummaryCsv(const MarginEvaluator& evaluator, const std::vector<MethodRun>& runs,
+                   bool with_replay = false);
 
 /// Columns of trajectory.csv for a robot that tell its motion: all but the margins.
 CsvColumns MotionColumns(const RobotModel& robot);

@@ -10,6 +10,7 @@ constexpr char kBuild[] = "of the program and the machine that wrote it";
 constexpr char kDescription[] = "describes what is there";
 constexpr char kPicture[] = "a picture of what is there";
 constexpr char kNeverBegan[] = "of steps that never began";
+constexpr char kSimulated[] = "what a simulation did";
 constexpr char kBelieved[] = "what was measured is believed";
 
 constexpr NotExamined kOfRun[] = {
@@ -20,12 +21,14 @@ constexpr NotExamined kOfRun[] = {
     {"given/*", "*", "where the walk was taken from: half_steps.csv says what it is"},
     {"METHOD/iterates.csv", "*", "how it went; its rows are counted for summary.csv"},
     {"METHOD/pareto.csv", "*", "other walks than this one"},
-    {"METHOD/replay.csv", "*", "what a simulation did"},
+    {"METHOD/replay.csv", "*", kSimulated},
+    {"METHOD/replays.csv", "*", kSimulated},
     {"config.yaml", "goal", "footsteps.csv says where it led"},
     {"config.yaml", "planner", kHow},
     {"config.yaml", "step_set", kHow},
     {"config.yaml", "swept_volumes", kHow},
     {"config.yaml", "output.directory", "where it was written"},
+    {"config.yaml", "replay", kSimulated},
     {"config.yaml", "smoothing.optimizer",
      "how a search went; but its program, and which forms it may move"},
     {"config.yaml", "smoothing.dichotomy", "how a search went; but its caps"},
@@ -50,7 +53,7 @@ constexpr NotExamined kOfRun[] = {
     {"manifest.json", "acceptance",
      "how methods judged; but what it says of `smoothing.stop_branches`"},
     {"manifest.json", "scene_warnings", "words about the scene"},
-    {"manifest.json", "physics", "what a simulation did"},
+    {"manifest.json", "physics", kSimulated},
     {"manifest.json", "methods.requested", kHow},
     {"manifest.json", "methods.message", kHow},
     {"manifest.json", "methods.judged_by", kHow},
@@ -65,6 +68,8 @@ constexpr NotExamined kOfRun[] = {
     {"summary.csv", "collision_queries", kHow},
     {"summary.csv", "wall_s", kHow},
     {"summary.csv", "time_to_first_improvement_s", kHow},
+    {"summary.csv", "stands", kSimulated},
+    {"summary.csv", "replay_tilt_rad", kSimulated},
     {"summary.csv", "gap_lipm", "the bound itself, but that there is one for all methods"},
     {"config.yaml", "smoothing.resolution_s", kHow},
     {"METHOD/certificate.json", "resolution_s", "how fine its proof was"},
@@ -86,7 +91,7 @@ constexpr NotExamined kOfEpisode[] = {
     {"*.schema.json", "*", kDescription},
     {"report.html", "*", kPicture},
     {"timings.csv", "*", kHow},
-    {"physics.csv", "*", "what a simulation did"},
+    {"physics.csv", "*", kSimulated},
     {"config.yaml", "planner", kHow},
     {"config.yaml", "step_set", kHow},
     {"config.yaml", "swept_volumes", kHow},
@@ -103,7 +108,7 @@ constexpr NotExamined kOfEpisode[] = {
      "to within the time between two frames of a stand-in; of `killed` not at all"},
     {"manifest.json", "ending", "which of those that are not `arrived`"},
     {"manifest.json", "scene_warnings", "words about the scene"},
-    {"manifest.json", "physics", "what a simulation did"},
+    {"manifest.json", "physics", kSimulated},
     {"manifest.json", "promise.touched.body", "but that the robot touches it, and from when on"},
     {"manifest.json", "promise.touched.depth_m", "the same"},
     {"manifest.json", "promise.touched.deepest_s", "the same"},

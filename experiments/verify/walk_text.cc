@@ -3,6 +3,12 @@
 #include "experiments/verify/csv_text.h"
 
 namespace halfstep::verify {
+namespace {
+
+constexpr std::string_view kReplayColumns = ",stands,replay_tilt_rad";
+
+}  // namespace
+
 std::vector<HalfStepRow> ReadHalfSteps(const std::string& path, const std::string& text) {
   std::vector<std::string> columns = {"half_step",  "kind",         "support",        "start_s",
                                       "duration_s", "height_scale", "support_point_m"};
@@ -88,7 +94,9 @@ std::vector<SummaryRow> ReadSummary(const std::string& path, const std::string& 
   std::vector<std::string> columns = {"method",     "status",  "certified",    "duration_s",
                                       "speedup",    "cost",    "worst_margin", "worst_margin_name",
                                       "iterations", "instants"};
-  const std::string head = text.substr(0, text.find('\n'));
+  std::string head = text.substr(0, text.find('\n'));
+  const bool has_replay = head.ends_with(kReplayColumns);  // what a simulation did: not examined
+  if (has_replay) head.resize(head.size() - kReplayColumns.size());
   const bool has_effort = head.find(",instants,effort,") != std::string::npos;  // else it is older
   if (has_effort) columns.emplace_back("effort");
   const size_t queries = columns.size(), wall = queries + 1, first = wall + 1, gap = first + 1;
@@ -96,6 +104,7 @@ std::vector<SummaryRow> ReadSummary(const std::string& path, const std::string& 
                                  "gap_to_reference"});
   const bool has_bound = head.ends_with(",gap_lipm");
   if (has_bound) columns.emplace_back("gap_lipm");
+  if (has_replay) columns.insert(columns.end(), {"stands", "replay_tilt_rad"});
   const CsvText csv(path, text, columns);
   std::vector<SummaryRow> rows;
   for (size_t i = 0; i < csv.size(); ++i) {

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiments/replay/seeded_replay.h"
+#include "experiments/tables/csv_columns.h"
+
+namespace halfstep::replay {
+
+/// A walk that was played in the worlds of several seeds.
+struct SeedsPlayed {
+  std::string method;             ///< of a run; "episode"
+  double duration = 0.0;          ///< of the walk [s]
+  bool obstacles = false;         ///< whether there are any; else nothing is said of touches
+  std::vector<SeedReplay> seeds;  ///< at least one
+};
+
+/// What `halfstep replay --seeds` prints of one walk: lines, each with its end.
+std::string SeedsText(const SeedsPlayed& played);
+
+/// The whole output of `halfstep replay --seeds --json`; parameters as of ReplayJson().
+std::string SeedsJson(const std::string& run, const std::vector<std::string>& notes,
+                      const std::vector<SeedsPlayed>& all);
+
+/// replays.csv: one row a seed.
+CsvFile SeedsCsv(const std::vector<SeedReplay>& seeds);
+
+}  // namespace halfstep::replay

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <string>
+#include <vector>
+
+#include "experiments/replay/seed_draws.h"
+#include "experiments/tables/trajectory_file.h"
+#include "wpg/robot/robot_model.h"
+
+namespace halfstep::replay {
+
+/// What the simulated floor has that the plan does not know of.
+struct FloorRelief {
+  double plates = 0.0;  ///< the greatest height of plates under the feet [m]; 0: there are none
+  double slope = 0.0;   ///< how steep the floor is [rad]
+};
+
+/// Reads "plates=0.01" (metres), "slope=2" (degrees), or both with a comma between. Throws
+/// InputError, which begins with `who`.
+FloorRelief ParseRelief(const std::string& who, const std::string& text);
+
+/// A box in the floor with a level upper face.
+struct FloorPlate {
+  Eigen::Isometry3d X_FP;  ///< the middle of its upper face, seen from the floor [m]
+  Eigen::Vector2d size;    ///< length and width of that face [m]
+};
+
+/// A plane with plates on it.
+struct SimulatedFloor {
+  /// Of W's plane z = 0, on which the walk was planned: z is the simulated plane's normal.
+  Eigen::Isometry3d X_WFloor = Eigen::Isometry3d::Identity();
+  std::vector<FloorPlate> plates;  ///< on the plane
+};
+
+/// Draws a floor for the walk of these rows. Each place where a sole lands gets a plate of the
+/// sole's size, up to `plates` high and shifted by up to half a sole either way, unless it would be
+/// under a sole that stands at the start. The plane is turned about the middle of these soles and
+/// falls in a drawn direction.
+SimulatedFloor DrawFloor(const FloorRelief& relief, const std::vector<TrajectoryRow>& rows,
+                         const RobotModel& robot, SeedDraws* draws);
+
+}  // namespace halfstep::replay
