@@ -48,6 +48,7 @@ ReplayResult ResultOf(std::vector<ReplayRow> rows, const std::vector<TouchRecord
   double squares = 0.0, vertical = 0.0;
   long measured = 0, walked = 0;
   std::vector<DriftSample> drift;
+  std::vector<TrackingError> off;
   for (const ReplayRow& row : rows) {
     result.stayed_up = result.stayed_up && !row.fallen;
     result.ended = row.t;
@@ -57,6 +58,7 @@ ReplayResult ResultOf(std::vector<ReplayRow> rows, const std::vector<TouchRecord
       result.stray = std::max(result.stray, row.stray);
       drift.push_back({row.t, row.support_drift});
     }
+    if (row.off) off.push_back(*row.off);
     if (row.t > walk_end) continue;
     ++walked;
     vertical += row.vertical[0] + row.vertical[1];
@@ -67,6 +69,7 @@ ReplayResult ResultOf(std::vector<ReplayRow> rows, const std::vector<TouchRecord
     result.zmp_largest = std::max(result.zmp_largest, error);
   }
   result.support = DriftOf(drift, window);
+  result.off = TrackingErrors(off);
   result.touches = touches;
   if (measured > 0) result.zmp_rms = std::sqrt(squares / static_cast<double>(measured));
   if (walked > 0) result.weight_share = vertical / static_cast<double>(walked) / weight;

@@ -25,6 +25,7 @@ struct ReplayResult {
   double weight_share = 0.0;         ///< mean vertical force during the walk, of the weight
   SupportDrift support;              ///< of the support feet, the time after the walk included
   double stray = 0.0;                ///< largest ReplayRow::stray, likewise [m]
+  TrackingErrors off;                ///< from the plan, likewise
   std::vector<TouchRecord> touches;  ///< of bodies with obstacles, in order
   std::vector<ReplayRow> rows;       ///< from t = 0
 };

@@ -80,6 +80,18 @@ std::string SupportText(const Replayed& replayed) {
              1e3 * support.within_window, replayed.window, 1e3 * replayed.result.stray);
 }
 
+std::string OffText(const TrackingError& off) {
+  return Formatted("feet %.1f mm and %.2f deg, waist %.1f mm, joints %.2f deg", 1e3 * off.foot,
+                   off.foot_yaw / kDegree, 1e3 * off.waist, off.joint / kDegree);
+}
+
+ordered_json OffJson(const TrackingError& off) {
+  return {{"foot_m", off.foot},
+          {"foot_yaw_rad", off.foot_yaw},
+          {"waist_m", off.waist},
+          {"joint_rad", off.joint}};
+}
+
 ordered_json TouchJson(const Replayed& replayed) {
   ordered_json json = ordered_json::array();
   for (const TouchRecord& touch : replayed.result.touches) {
@@ -119,6 +131,11 @@ ordered_json Json(const Replayed& replayed) {
                          {"window_s", replayed.window},
                          {"within_window_m", support.within_window}}},
                        {"stray_m", result.stray}};
+  if (replayed.controller) {
+    json["controller"] = *replayed.controller;
+    json["tracking"] = {{"most", OffJson(result.off.most)},
+                        {"largest", OffJson(result.off.largest)}};
+  }
   if (!replayed.obstacles.empty()) {
     json["touches_walking"] = TouchesOf(replayed, false).size();
     json["touches_at_rest"] = TouchesOf(replayed, true).size();
@@ -148,6 +165,11 @@ std::string ReplayText(const Replayed& replayed) {
           1e3 * result.zmp_largest, 1e3 * result.model_rms, 1e3 * result.model_largest,
           1e3 * result.slip, 1e3 * result.drift);
   text += SupportText(replayed);
+  if (replayed.controller) {
+    text += "  controller " + *replayed.controller +
+            ": off the plan, shifted with the support, by " + OffText(result.off.most) +
+            " for 95 % of the time; at most " + OffText(result.off.largest) + "\n";
+  }
   if (!replayed.obstacles.empty()) {
     text += TouchText(replayed, false);
     if (!TouchesOf(replayed, true).empty()) text += TouchText(replayed, true);
