@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "experiments/config/toolbox.h"
+#include "experiments/control/controllers.h"
 #include "experiments/export/whole_trajectory.h"
 #include "experiments/report/walk_video.h"
 #include "experiments/run/exit_status.h"
@@ -121,10 +122,16 @@ struct ReplayCommand {
   std::optional<std::string> method;
   bool push = false;            ///< finds the largest push that is survived
   std::vector<double> push_at;  ///< instants [s]; none: a quarter, half, three quarters
-  bool out = false;             ///< write METHOD/replay.csv, of an episode replay.csv, there
+  /// What moves the robot, by its name in `controllers`; "none": the servos get the plan itself.
+  std::optional<std::string> controller;
+  std::optional<double> sensor_delay;        ///< SensorOptions::delay [s]
+  std::optional<std::uint64_t> sensor_seed;  ///< SensorOptions::seed
+  bool out = false;  ///< write METHOD/replay.csv, of an episode replay.csv, there
   bool quiet = false;
   bool json = false;
   Toolbox tools = {};  ///< that configs may name
+  control::Controllers controllers =
+      control::Controllers::Standard();  ///< that `controller` may name
 };
 
 /// `halfstep replay`: plays the walks of a run, or the walk of an episode, on a simulated robot

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -18,6 +19,7 @@
 #include "experiments/tables/run_record.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/number_text.h"
+#include "wpg/files/suggestion.h"
 #include "wpg/nth.h"
 
 namespace halfstep {
@@ -96,6 +98,49 @@ std::vector<std::string> NamesOf(const auto& things) {
   return names;
 }
 
+bool IsControlled(const ReplayCommand& command) {
+  return command.controller.value_or("none") != "none";
+}
+
+// Throws InputError for what no controller can do with.
+void CheckController(const ReplayCommand& command, const RobotModel& robot) {
+  std::vector<std::string> names = command.controllers.names();
+  names.insert(names.begin(), "none");
+  const std::string name = command.controller.value_or("none");
+  if (std::find(names.begin(), names.end(), name) == names.end()) {
+    throw InputError({"--controller: there is no " + name + " (valid: " + Joined(names) + ")"});
+  }
+  if (!IsControlled(command)) {
+    if (command.sensor_delay)
+      throw InputError({"--sensor-delay: without a --controller it says nothing"});
+    if (command.sensor_seed)
+      throw InputError({"--sensor-seed: without a --controller it says nothing"});
+    return;
+  }
+  constexpr double kMostDelay = 1.0;
+  if (const double s = command.sensor_delay.value_or(0.0); !(s >= 0.0 && s <= kMostDelay)) {
+    throw InputError({"--sensor-delay " + ShortestText(s) + ": no delay (valid: 0 … 1 s)"});
+  }
+  if (!robot.masses.known()) {
+    throw InputError({"--controller " + name + ": of " + robot.name + ", " + robot.masses.fault});
+  }
+}
+
+// What moves the robot along a motion; none: the servos get the plan itself.
+std::shared_ptr<const replay::ControlLoop> LoopOf(const ReplayCommand& command,
+                                                  const RobotModel& robot, double weight,
+                                                  const replay::ReferenceMotion& motion) {
+  if (!IsControlled(command)) return nullptr;
+  control::SensorOptions sensors;
+  sensors.delay = command.sensor_delay.value_or(sensors.delay);
+  sensors.seed = command.sensor_seed;
+  const std::unique_ptr<control::TrackingController> controller =
+      command.controllers.Make(*command.controller, {robot, replay::ModelOptions().stiffness});
+  return std::make_shared<replay::ControlLoop>(
+      std::make_shared<replay::PlannedStates>(robot, motion), *controller,
+      control::Sensors(sensors, weight));
+}
+
 void WriteRows(const Task& task, const std::vector<replay::Replayed>& all, const std::string& run) {
   RunFolder folder(run, /*overwrite=*/true);
   folder.CopyOlder();
@@ -110,6 +155,7 @@ void WriteRows(const Task& task, const std::vector<replay::Replayed>& all, const
 ExitStatus Replay(const ReplayCommand& command) {
   const Task task = IsEpisode(command.run) ? EpisodeTask(command) : RunTask(command);
   const std::vector<std::vector<double>> push_at = AllInstants(command, task);
+  CheckController(command, task.robot.model);
   if (const std::string why = replay::WhyNoSimulation(); !why.empty()) {
     std::cerr << "halfstep: replay: " << why << '\n';
     return kFailed;
@@ -130,14 +176,17 @@ ExitStatus Replay(const ReplayCommand& command) {
     replayed.window = task.options.drift_window;
     replayed.bodies = NamesOf(robot.bodies);
     replayed.obstacles = NamesOf(obstacles);
-    replayed.result = replay::Play(simulation, motion, task.options);
+    replayed.controller = command.controller;
+    replay::PlayOptions options = task.options;
+    options.control = LoopOf(command, robot, simulation.weight(), motion);
+    replayed.result = replay::Play(simulation, motion, options);
     replay::CompareMassModel(robot, tree, motion, &replayed.result);
     stayed_up = stayed_up && replayed.result.stayed_up;
     if (command.push && replayed.result.stayed_up) {
       ProgressBar bar("pushes of " + replayed.method, !screen);
       replayed.pushes = replay::FindPushLimits(
-          simulation, motion, task.options, {}, push_at[i],
-          [&bar](double done) { bar.Update(done); }, interrupt.token());
+          simulation, motion, options, {}, push_at[i], [&bar](double done) { bar.Update(done); },
+          interrupt.token());
     }
     if (interrupt.requested()) return kInterrupted;
     if (screen) std::cout << replay::ReplayText(replayed);
@@ -161,6 +210,13 @@ CommandAction DeclareReplay(CLI::App* app, const Toolbox& tools) {
   app->add_option("--method", command->method, "only this one (default: all)");
   app->add_flag("--push", command->push, "find the largest push that each walk survives");
   app->add_option("--push-at", command->push_at, "instants of the push [s]");
+  app->add_option(
+      "--controller", command->controller,
+      "what moves the robot: none (servos get the plan itself), dcm; tells tracking errors");
+  app->add_option("--sensor-delay", command->sensor_delay,
+                  "what is measured arrives so late [s] (default: 0.005)");
+  app->add_option("--sensor-seed", command->sensor_seed,
+                  "draws noise of sensors (default: no noise)");
   app->add_flag("--out", command->out,
                 "write METHOD/replay.csv (episode: replay.csv) into the folder");
   app->add_flag("--quiet", command->quiet, "print nothing but errors");
