@@ -6,6 +6,7 @@
 
 #include "experiments/config/replay_config.h"
 #include "experiments/config/toolbox.h"
+#include "experiments/control/controllers.h"
 #include "experiments/export/whole_trajectory.h"
 #include "experiments/report/walk_video.h"
 #include "experiments/run/exit_status.h"
@@ -125,11 +126,17 @@ struct ReplayCommand {
   ReplayConfig robot;                ///< servos, ankles and torque limits; its seeds count not
   std::optional<std::string> floor;  ///< as ParseRelief() takes it; none: level
   std::optional<int> seeds;          ///< plays each walk in the worlds of so many seeds; none: once
+  /// What moves the robot, by its name in `controllers`; "none": the servos get the plan itself.
+  std::optional<std::string> controller;
+  std::optional<double> sensor_delay;        ///< SensorOptions::delay [s]
+  std::optional<std::uint64_t> sensor_seed;  ///< SensorOptions::seed
   /// Write METHOD/replay.csv, of an episode replay.csv, there; with seeds replays.csv.
   bool out = false;
   bool quiet = false;
   bool json = false;
   Toolbox tools = {};  ///< that configs may name
+  control::Controllers controllers =
+      control::Controllers::Standard();  ///< that `controller` may name
 };
 
 /// `halfstep replay`: plays the walks of a run, or the walk of an episode, on a simulated robot

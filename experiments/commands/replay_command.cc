@@ -20,6 +20,7 @@
 #include "experiments/tables/run_record.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/number_text.h"
+#include "wpg/files/suggestion.h"
 #include "wpg/files/text.h"
 #include "wpg/robot/torque_limits.h"
 
@@ -53,12 +54,53 @@ struct Task {
   std::vector<NamedMotion> motions;
 };
 
+bool IsControlled(const ReplayCommand& command) {
+  return command.controller.value_or("none") != "none";
+}
+
+// Throws InputError for what no controller can do with.
+void CheckController(const ReplayCommand& command, const RobotModel& robot) {
+  std::vector<std::string> names = command.controllers.names();
+  names.insert(names.begin(), "none");
+  const std::string name = command.controller.value_or("none");
+  if (std::find(names.begin(), names.end(), name) == names.end()) {
+    throw InputError({"--controller: there is no " + name + " (valid: " + Joined(names) + ")"});
+  }
+  if (!IsControlled(command)) {
+    if (command.sensor_delay)
+      throw InputError({"--sensor-delay: without a --controller it says nothing"});
+    if (command.sensor_seed)
+      throw InputError({"--sensor-seed: without a --controller it says nothing"});
+    return;
+  }
+  constexpr double kMostDelay = 1.0;
+  if (const double s = command.sensor_delay.value_or(0.0); !(s >= 0.0 && s <= kMostDelay)) {
+    throw InputError({"--sensor-delay " + ShortestText(s) + ": no delay (valid: 0 … 1 s)"});
+  }
+  if (!robot.masses.known()) {
+    throw InputError({"--controller " + name + ": of " + robot.name + ", " + robot.masses.fault});
+  }
+}
+
+// What moves the robot in place of the plan. Precondition: IsControlled(command).
+replay::ControlSetup ControlOf(const ReplayCommand& command) {
+  replay::ControlSetup control{
+      .make = [controllers = command.controllers, name = *command.controller](
+                  const control::ControlledRobot& robot) { return controllers.Make(name, robot); },
+      .sensors = {}};
+  control.sensors.delay = command.sensor_delay.value_or(control.sensors.delay);
+  control.sensors.seed = command.sensor_seed;
+  return control;
+}
+
 Task TaskOf(const ReplayCommand& command, WholeRobot robot,
             const replay::SimulatedObstacles& world) {
   Task task{.setup = replay::SetupOf(std::move(robot), world.obstacles, command.robot),
             .notes = world.notes,
             .motions = {}};
   if (command.floor) task.setup.relief = replay::ParseRelief("--floor", *command.floor);
+  CheckController(command, task.setup.robot.model);
+  if (IsControlled(command)) task.setup.control = ControlOf(command);
   const std::vector<std::string> unknown = JointsOfUnknownTorque(task.setup.robot.model);
   if (command.robot.torque_limits) {
     task.notes.push_back("Leg joints whose servos have no torque limit: " +
@@ -156,15 +198,17 @@ ExitStatus ReplayOnce(const Telling& telling, const std::vector<std::vector<doub
     replayed.window = task.setup.play.drift_window;
     replayed.bodies = NamesOf(task.setup.robot.model.bodies);
     replayed.obstacles = NamesOf(task.setup.obstacles);
-    replayed.result = replay::Play(simulation, motion, task.setup.play);
+    replayed.controller = command.controller;
+    const replay::PlayOptions options = task.setup.PlayOf(simulation, motion);
+    replayed.result = replay::Play(simulation, motion, options);
     replay::CompareMassModel(task.setup.robot.model, task.setup.robot.tree, motion,
                              &replayed.result);
     stayed_up = stayed_up && replayed.result.stayed_up;
     if (command.push && replayed.result.stayed_up) {
       ProgressBar bar("pushes of " + replayed.method, !telling.screen());
       replayed.pushes = replay::FindPushLimits(
-          simulation, motion, task.setup.play, {}, push_at[i],
-          [&bar](double done) { bar.Update(done); }, interrupt.token());
+          simulation, motion, options, {}, push_at[i], [&bar](double done) { bar.Update(done); },
+          interrupt.token());
     }
     if (interrupt.requested()) return kInterrupted;
     if (telling.screen()) std::cout << replay::ReplayText(replayed);
@@ -266,6 +310,13 @@ CommandAction DeclareReplay(CLI::App* app, const Toolbox& tools) {
       "play each walk so often, with friction, contacts, stiffness, CoM and a push drawn");
   app->add_flag("--push", command->push, "find the largest push that each walk survives");
   app->add_option("--push-at", command->push_at, "instants of the push [s]");
+  app->add_option(
+      "--controller", command->controller,
+      "what moves the robot: none (servos get the plan itself), dcm; tells tracking errors");
+  app->add_option("--sensor-delay", command->sensor_delay,
+                  "what is measured arrives so late [s] (default: 0.005)");
+  app->add_option("--sensor-seed", command->sensor_seed,
+                  "draws noise of sensors (default: no noise)");
   app->add_flag(
       "--out", command->out,
       "write METHOD/replay.csv (episode: replay.csv; seeds: replays.csv) into the folder");

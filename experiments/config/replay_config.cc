@@ -36,6 +36,9 @@ void DeclareReplay(Fields& fields, ReplayConfig* config) {
                 "K, D of a passive bush above each foot, in pitch and roll; []: none");
   fields.Boolean("torque_limits", &config->torque_limits,
                  {.meaning = "whether servos give no more than the efforts of the robot file"});
+  fields.Text("controller", &config->controller,
+              {.meaning = "what moves the robot; `none`: the servos get the plan itself",
+               .choices = {"none", "dcm"}});
 }
 
 }  // namespace halfstep

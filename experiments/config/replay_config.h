@@ -14,6 +14,7 @@ struct ReplayConfig {
   std::vector<double> servos;  ///< K [N m/rad], D [N m s/rad]; empty: those of the robot's size
   std::vector<double> ankle;   ///< the same of a passive bush above each foot; empty: there is none
   bool torque_limits = false;  ///< whether servos give no more than the robot's efforts
+  std::string controller = "none";  ///< what moves the robot; "none": servos get the plan itself
 };
 
 /// The most that `seeds` may be.

@@ -322,4 +322,34 @@ Eigen::Vector3d Simulation::com() const {
   return Eigen::Map<const Vector3d>(state_->data->subtree_com + 3 * kRoot);
 }
 
+control::MeasuredState Simulation::Measure() const {
+  const State::Layout& layout = *state_->layout;
+  const mjModel* model = layout.model.get();
+  const mjData* data = state_->data.get();
+  control::MeasuredState measured;
+  std::array<mjtNum, 6> turn{};
+  mj_objectVelocity(model, data, mjOBJ_XBODY, layout.waist, turn.data(), /*flg_local=*/1);
+  measured.R_WB = X_WB().linear();
+  measured.turn_B = Eigen::Map<const Vector3d>(turn.data());
+  for (size_t side = 0; side < 2; ++side) {
+    for (size_t j = 0; j < 6; ++j) {
+      const auto k = static_cast<Eigen::Index>(j);
+      measured.q[side][k] = data->qpos[layout.qpos[side][j]];
+      measured.speeds[side][k] = data->qvel[layout.qpos[side][j] - 1];  // as in Needed()
+    }
+    const Eigen::Isometry3d X_SoleW = X_WSole(static_cast<Side>(side)).inverse();
+    control::SoleLoad& load = measured.loads[side];
+    for (int i = 0; i < data->ncon; ++i) {
+      if (data->contact[i].geom2 != layout.soles[side]) continue;
+      const Vector3d force = X_SoleW.linear() * state_->ForceOf(i);
+      const Vector3d place = X_SoleW * Eigen::Map<const Vector3d>(data->contact[i].pos);
+      load.force += force.z();
+      load.centre += force.z() * place.head<2>() - place.z() * force.head<2>();
+    }
+    if (load.force > 0.0) load.centre /= load.force;
+    if (!(load.force > 0.0)) load = {};
+  }
+  return measured;
+}
+
 }  // namespace halfstep::replay

@@ -36,5 +36,6 @@ Eigen::Isometry3d Simulation::X_WB() const { throw std::logic_error(WhyNoSimulat
 Eigen::Isometry3d Simulation::X_WObstacle(int) const { throw std::logic_error(WhyNoSimulation()); }
 Eigen::Isometry3d Simulation::X_WSole(Side) const { throw std::logic_error(WhyNoSimulation()); }
 Eigen::Vector3d Simulation::com() const { throw std::logic_error(WhyNoSimulation()); }
+control::MeasuredState Simulation::Measure() const { throw std::logic_error(WhyNoSimulation()); }
 
 }  // namespace halfstep::replay

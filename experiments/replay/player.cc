@@ -37,10 +37,13 @@ Pose2 OnFloor(const Eigen::Isometry3d& X_WB) {
 Player::Player(const Simulation& robot, const ReferenceMotion& motion, const PlayOptions& options)
     : robot_(robot), options_(options) {
   const TrajectoryRow& first = motion.rows().front();
+  if (options.control) control_.emplace(*options.control);
   robot_.Place(robot_.X_WFloor() * first.X_WB(), first.q);
-  const JointTargets targets = motion.TargetsAt(first.t);
   const long steps = std::lround(options.settle / robot_.timestep());
-  for (long i = 0; i < steps; ++i) robot_.Step(targets, Eigen::Vector3d::Zero());
+  for (long i = 1 - steps; i <= 0; ++i) {
+    const double t = first.t + static_cast<double>(i) * robot_.timestep();
+    robot_.Step(TargetsAt(t, motion), Eigen::Vector3d::Zero());
+  }
 }
 
 Player::Creep Player::CreepOf(Side side, bool carries) {
@@ -96,7 +99,7 @@ ReplayRow Player::Advance(const ReferenceMotion& motion, const std::optional<Pus
     }
     // Contacts are those of where the step begins.
     robot_.MoveObstacles(t - dt);
-    const FloorForces floor = robot_.Step(motion.TargetsAt(t), force);
+    const FloorForces floor = robot_.Step(TargetsAt(t, motion), force);
     const std::vector<Touch> touches = robot_.touches();
     touches_.Note(t - dt, touches, motion.RestsAt(t - dt));
     for (const Touch& touch : touches) row.touch = std::max(row.touch, touch.force);
@@ -139,6 +142,7 @@ ReplayRow Player::Advance(const ReferenceMotion& motion, const std::optional<Pus
   row.edge = EdgeOf(pressure / total, row.vertical);
   const Eigen::Vector3d shift(row.support_drift[0], row.support_drift[1], 0.0);
   row.stray = StrayFrom(motion.RowAt(t_), shift);
+  if (row.support) row.off = TrackingErrorOf(robot_, motion, t_, shift);
   return row;
 }
 

@@ -2,8 +2,10 @@
 
 #include <optional>
 
+#include "experiments/replay/control_loop.h"
 #include "experiments/replay/reference_motion.h"
 #include "experiments/replay/touch_log.h"
+#include "experiments/replay/tracking_error.h"
 #include "wpg/geometry/pose2.h"
 
 namespace halfstep::replay {
@@ -16,6 +18,8 @@ struct PlayOptions {
   double fallen_tilt = 0.7;   ///< the waist leans by more: fallen [rad]
   double drift_window = 2.0;  ///< of SupportDrift::within_window [s]
   double edge = 0.003;        ///< so near to its edge the support is as good as tilting [m]
+  /// What moves the robot, of which a player uses a copy; none: the servos get the plan itself.
+  std::shared_ptr<const ControlLoop> control = nullptr;
 };
 
 /// A push: a constant force on the waist.
@@ -47,6 +51,7 @@ struct ReplayRow {
   /// The farthest that the waist's origin or a sole's centre is from its plan when that is shifted
   /// on the floor by the support's drift [m]; nan: none carries.
   double stray = 0.0;
+  std::optional<TrackingError> off;  ///< from the plan; none: no sole carries
   double touch = 0.0;   ///< greatest force between a body and an obstacle [N]; 0: none touch
   bool fallen = false;  ///< tilted beyond fallen_tilt
 };
@@ -80,9 +85,14 @@ class Player {
   // ReplayRow::edge for the pressure point in W; `vertical` is the force on each sole.
   double EdgeOf(const Eigen::Vector2d& pressure, const std::array<double, 2>& vertical) const;
   double StrayFrom(const TrajectoryRow& planned, const Eigen::Vector3d& shift) const;
+  // Of the time step that ends at t.
+  JointTargets TargetsAt(double t, const ReferenceMotion& motion) {
+    return control_ ? control_->TargetsAt(t, robot_) : motion.TargetsAt(t);
+  }
 
   Simulation robot_;
   PlayOptions options_;
+  std::optional<ControlLoop> control_;
   long row_ = 0;
   double t_ = 0.0;
   std::array<std::optional<Pose2>, 2> anchors_;  // where each carrying sole took up load

@@ -48,6 +48,7 @@ ReplayResult ResultOf(std::vector<ReplayRow> rows, const std::vector<TouchRecord
   double squares = 0.0, vertical = 0.0;
   long measured = 0, walked = 0, carried = 0, at_edge = 0, flown = 0;
   std::vector<DriftSample> drift;
+  std::vector<TrackingError> off;
   for (const ReplayRow& row : rows) {
     result.stayed_up = result.stayed_up && !row.fallen;
     result.ended = row.t;
@@ -60,6 +61,7 @@ ReplayResult ResultOf(std::vector<ReplayRow> rows, const std::vector<TouchRecord
       result.stray = std::max(result.stray, row.stray);
       drift.push_back({row.t, row.support_drift});
     }
+    if (row.off) off.push_back(*row.off);
     if (row.t > walk_end) continue;
     ++walked;
     if (!std::isnan(row.edge)) ++carried;
@@ -74,6 +76,7 @@ ReplayResult ResultOf(std::vector<ReplayRow> rows, const std::vector<TouchRecord
   result.support = DriftOf(drift, options.drift_window);
   result.flight = static_cast<double>(flown) * options.row_period;
   if (carried > 0) result.edge_share = static_cast<double>(at_edge) / static_cast<double>(carried);
+  result.off = TrackingErrors(off);
   result.touches = touches;
   if (measured > 0) result.zmp_rms = std::sqrt(squares / static_cast<double>(measured));
   if (walked > 0) result.weight_share = vertical / static_cast<double>(walked) / weight;

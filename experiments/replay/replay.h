@@ -32,6 +32,7 @@ struct ReplayResult {
   double edge_share = 0.0;
   double peak = 0.0;                 ///< largest vertical force of a row, of the weight
   double flight = 0.0;               ///< time in which no sole carries [s]
+  TrackingErrors off;                ///< from the plan, likewise
   std::vector<TouchRecord> touches;  ///< of bodies with obstacles, in order
   std::vector<ReplayRow> rows;       ///< from t = 0
 };

@@ -88,6 +88,18 @@ std::string SolesText(const ReplayResult& result) {
       100 * result.edge_share, result.peak, result.flight, result.turn / kDegree);
 }
 
+std::string OffText(const TrackingError& off) {
+  return Formatted("feet %.1f mm and %.2f deg, waist %.1f mm, joints %.2f deg", 1e3 * off.foot,
+                   off.foot_yaw / kDegree, 1e3 * off.waist, off.joint / kDegree);
+}
+
+ordered_json OffJson(const TrackingError& off) {
+  return {{"foot_m", off.foot},
+          {"foot_yaw_rad", off.foot_yaw},
+          {"waist_m", off.waist},
+          {"joint_rad", off.joint}};
+}
+
 ordered_json TouchJson(const Replayed& replayed) {
   ordered_json json = ordered_json::array();
   for (const TouchRecord& touch : replayed.result.touches) {
@@ -131,6 +143,11 @@ ordered_json Json(const Replayed& replayed) {
                        {"peak_weights", result.peak},
                        {"flight_s", result.flight},
                        {"sole_turn_rad", result.turn}};
+  if (replayed.controller) {
+    json["controller"] = *replayed.controller;
+    json["tracking"] = {{"most", OffJson(result.off.most)},
+                        {"largest", OffJson(result.off.largest)}};
+  }
   if (!replayed.obstacles.empty()) {
     json["touches_walking"] = TouchesOf(replayed, false).size();
     json["touches_at_rest"] = TouchesOf(replayed, true).size();
@@ -160,6 +177,11 @@ std::string ReplayText(const Replayed& replayed) {
           1e3 * result.zmp_largest, 1e3 * result.model_rms, 1e3 * result.model_largest,
           1e3 * result.slip, 1e3 * result.drift);
   text += SupportText(replayed) + SolesText(result);
+  if (replayed.controller) {
+    text += "  controller " + *replayed.controller +
+            ": off the plan, shifted with the support, by " + OffText(result.off.most) +
+            " for 95 % of the time; at most " + OffText(result.off.largest) + "\n";
+  }
   if (!replayed.obstacles.empty()) {
     text += TouchText(replayed, false);
     if (!TouchesOf(replayed, true).empty()) text += TouchText(replayed, true);

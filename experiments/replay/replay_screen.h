@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,7 +10,9 @@ namespace halfstep::replay {
 
 /// A walk that was played, and what is told of it.
 struct Replayed {
-  std::string method;             ///< of a run; "episode"
+  std::string method;  ///< of a run; "episode"
+  /// What moved the robot, where that was asked for; then tracking errors are told.
+  std::optional<std::string> controller = std::nullopt;
   double duration = 0.0;          ///< of the walk [s]
   double window = 0.0;            ///< of the drift [s]
   ReplayResult result;            ///< how it went

@@ -33,10 +33,21 @@ WalkReplayer ReplayerOf(const ExperimentConfig& config) {
 
 ReplaySetup SetupOf(WholeRobot robot, const std::vector<SimulatedObstacle>& obstacles,
                     const ReplayConfig& options) {
-  ReplaySetup setup{
-      .robot = std::move(robot), .obstacles = obstacles, .model = {}, .relief = {}, .play = {}};
+  ReplaySetup setup{.robot = std::move(robot),
+                    .obstacles = obstacles,
+                    .model = {},
+                    .relief = {},
+                    .play = {},
+                    .control = {}};
   setup.model = PhysicsOf(setup.robot.model, options);
   setup.play = PlayOptionsOf(setup.robot.model);
+  if (options.controller != "none") {
+    setup.control = {.make =
+                         [name = options.controller](const control::ControlledRobot& of) {
+                           return control::Controllers::Standard().Make(name, of);
+                         },
+                     .sensors = {}};
+  }
   return setup;
 }
 

@@ -21,7 +21,7 @@ SeedReplay PlaySeed(const ReplaySetup& setup, const ReferenceMotion& motion, int
   SeedReplay replay{.seed = seed, .unstable = "", .drawn = world.disturbance, .result = {}};
   const Simulation robot = setup.Robot(world.floor, world.disturbance);
   try {
-    replay.result = Play(robot, motion, setup.play, world.disturbance.push);
+    replay.result = Play(robot, motion, setup.PlayOf(robot, motion), world.disturbance.push);
   } catch (const std::runtime_error& error) {
     replay.unstable = error.what();
     replay.result.stayed_up = false;
@@ -43,6 +43,17 @@ Simulation ReplaySetup::Robot(const SimulatedFloor& floor, const Disturbance& dr
   ModelOptions options = drawn.Applied(model);
   options.floor = floor;
   return SimulationOf(*this, options);
+}
+
+PlayOptions ReplaySetup::PlayOf(const Simulation& simulated, const ReferenceMotion& motion) const {
+  PlayOptions options = play;
+  if (!control) return options;
+  const std::unique_ptr<control::TrackingController> controller =
+      control->make({robot.model, model.stiffness});
+  options.control = std::make_shared<ControlLoop>(
+      std::make_shared<PlannedStates>(robot.model, motion), *controller,
+      control::Sensors(control->sensors, simulated.weight()));
+  return options;
 }
 
 SeedWorld DrawWorld(int seed, const ReplaySetup& setup, const ReferenceMotion& motion) {

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <vector>
 
+#include "experiments/control/controllers.h"
 #include "experiments/replay/disturbance.h"
 #include "experiments/replay/replay.h"
 #include "experiments/replay/simulated_floor.h"
@@ -13,18 +15,27 @@
 
 namespace halfstep::replay {
 
+/// What moves the robot in place of the plan itself.
+struct ControlSetup {
+  control::MakeController make;    ///< the controller
+  control::SensorOptions sensors;  ///< what it measures by
+};
+
 /// The robot, place and way in which walks are played.
 struct ReplaySetup {
   WholeRobot robot;                          ///< with all links
   std::vector<SimulatedObstacle> obstacles;  ///< among which it walks
   ModelOptions model;                        ///< undisturbed
   FloorRelief relief;                        ///< of the floor, which seeds draw
-  PlayOptions play;                          ///< how it is played
+  PlayOptions play;                          ///< how it is played, but for its `control`
+  std::optional<ControlSetup> control;       ///< none: the servos get the plan itself
 
   /// The simulated robot, undisturbed. `floor` of ModelOptions is replaced.
   Simulation Robot(const SimulatedFloor& floor) const;
   /// Disturbed.
   Simulation Robot(const SimulatedFloor& floor, const Disturbance& drawn) const;
+  /// How a motion is played on one of them, controlled. What is drawn no controller knows.
+  PlayOptions PlayOf(const Simulation& simulated, const ReferenceMotion& motion) const;
 };
 
 /// What a seed draws for a walk.

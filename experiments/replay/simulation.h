@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "experiments/control/tracking_controller.h"
 #include "experiments/replay/simulated_obstacles.h"
 #include "wpg/robot/robot_model.h"
 
@@ -95,6 +96,9 @@ class Simulation {
   Eigen::Isometry3d X_WSole(Side side) const;
   /// The CoM of all links, in W [m].
   Eigen::Vector3d com() const;
+  /// What perfect sensors would say now, with the soles' loads of the last time step. `t` is left
+  /// 0.
+  control::MeasuredState Measure() const;
 
  private:
   struct State;

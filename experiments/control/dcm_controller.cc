@@ -1,0 +1,164 @@
+#include "experiments/control/dcm_controller.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "experiments/control/sole_loads.h"
+#include "wpg/geometry/rotation.h"
+#include "wpg/nth.h"
+#include "wpg/robot/gravity.h"
+#include "wpg/robot/leg_ik.h"
+
+namespace halfstep::control {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double kPeriod = kControlPeriod;
+// Moment of a foot on the floor for each radian, of m g z_c, when the servos' stiffness is not
+// known: that of 30 000 N m/rad at HRP-2's size.
+constexpr double kStiffFoot = 70.0;
+constexpr double kLegLever = 0.14;  // of the knee about the line from hip to ankle, of z_c
+constexpr double kCarries = 0.02;   // of the weight: the least that a sole carries
+constexpr double kMostTilt = 0.2;   // of a sole [rad]
+constexpr double kForget = 0.1;     // of what a foot no longer needs [s]
+constexpr double kFollow = 0.03;    // of a foot in the air [s]
+constexpr double kMostShift = 0.1;  // of the waist, of z_c
+constexpr double kShiftLeak = 0.5;  // [s]
+
+// First-order, with the time constant `time`.
+template <typename Value>
+void Approach(const Value& goal, double time, Value* value) {
+  *value += kPeriod / (time + kPeriod) * (goal - *value);
+}
+
+Eigen::Matrix3d Turned(const Vector3d& turn) {
+  const double angle = turn.norm();
+  return angle > 0.0 ? AxisRotation(angle, turn / angle) : Eigen::Matrix3d::Identity();
+}
+
+// The sole's turn (roll, pitch) that moves its pressure the way of a moment f·centre.
+Vector2d TiltFor(const Vector2d& moment) { return {-moment.y(), moment.x()}; }
+Vector2d MomentOf(const SoleLoad& load) { return load.force * load.centre; }
+
+}  // namespace
+
+DcmController::DcmController(const RobotModel& robot, const DcmOptions& options)
+    : robot_(robot),
+      options_(options),
+      omega_(std::sqrt(kGravity / robot.com_height)),
+      foot_stiffness_(
+          std::min(options.stiffness, kStiffFoot * robot.mass * kGravity * robot.com_height)) {}
+
+std::unique_ptr<TrackingController> DcmController::Clone() const {
+  return std::make_unique<DcmController>(*this);
+}
+
+void DcmController::SenseError(const EstimatedState& state, const PlannedState& then) {
+  const Vector3d off = state.com - then.com + (state.velocity - then.com_velocity) / omega_;
+  Approach<Vector2d>(off.head<2>(), options_.filter, &error_);
+}
+
+void DcmController::TurnSoles(const MeasuredState& measured, const PlannedState& then,
+                              const std::array<SoleLoad, 2>& wanted,
+                              const std::array<SoleLoad, 2>& planned) {
+  const std::array<bool, 2> down = SolesOnFloor(then);
+  const double least = kCarries * robot_.mass * kGravity;
+  for (size_t s = 0; s < 2; ++s) {
+    FootOffset& foot = feet_[s];
+    const SoleLoad& has = measured.loads[s];
+    const bool carries = down[s] && has.force > least;
+    Vector2d missing(0, 0), asked(0, 0);
+    if (carries) {
+      missing = TiltFor(MomentOf(wanted[s]) - MomentOf(has)) / foot_stiffness_;
+      asked = TiltFor(MomentOf(wanted[s]) - MomentOf(planned[s])) / foot_stiffness_;
+    }
+    foot.tilt +=
+        kPeriod * (missing / options_.ankle_time - foot.tilt / (carries ? options_.leak : kForget));
+    foot.tilt = foot.tilt.cwiseMax(-kMostTilt).cwiseMin(kMostTilt);
+    Approach<Vector2d>(options_.at_once * asked, options_.filter, &foot.at_once);
+  }
+  if (!down[0] || !down[1]) return Approach(0.0, kForget, &difference_);
+  const double lever = kLegLever * robot_.com_height;
+  const double missing =
+      (wanted[0].force - wanted[1].force) - (measured.loads[0].force - measured.loads[1].force);
+  difference_ += kPeriod * (missing * lever * lever / (foot_stiffness_ * options_.force_time) -
+                            difference_ / options_.leak);
+}
+
+void DcmController::LevelFeet(const Vector3d& lean, const PlannedState& then,
+                              const PlannedState& next) {
+  for (size_t s = 0; s < 2; ++s) {
+    const bool flies = !then.stands[s] && !next.stands[s];
+    const Vector3d arm = then.X_WSole[s].translation() - then.X_WB.translation();
+    const Vector3d turn = flies ? Vector3d(options_.level * lean) : Vector3d(0, 0, 0);
+    Approach<Vector3d>(-turn, flies ? kFollow : kForget, &feet_[s].level);
+    Approach(-turn.cross(arm).z(), flies ? kFollow : kForget, &feet_[s].lift);
+  }
+}
+
+void DcmController::ShiftWaist(const MeasuredState& measured, const PlannedState& then,
+                               const Vector2d& zmp) {
+  Vector2d moment(0, 0);
+  double force = 0.0;
+  for (size_t s = 0; s < 2; ++s) {
+    const SoleLoad& load = measured.loads[s];
+    moment +=
+        load.force * (then.X_WSole[s] * Vector3d(load.centre.x(), load.centre.y(), 0.0)).head<2>();
+    force += load.force;
+  }
+  const bool carried = force > kCarries * robot_.mass * kGravity;
+  const Vector2d off = carried ? Vector2d(moment / force - zmp) : Vector2d(0, 0);
+  const double most = kMostShift * robot_.com_height;
+  shift_ += kPeriod * (options_.waist_rate * off - shift_ / kShiftLeak);
+  shift_ = shift_.cwiseMax(-most).cwiseMin(most);
+}
+
+std::array<Vector6d, 2> DcmController::Bent(const PlannedState& next) const {
+  std::array<Vector6d, 2> bent = bent_;
+  Isometry3d X_WB = next.X_WB;
+  X_WB.translation().head<2>() += shift_;
+  for (size_t s = 0; s < 2; ++s) {
+    const FootOffset& foot = feet_[s];
+    Vector3d tilt(0, 0, 0);
+    tilt.head<2>() = foot.tilt + foot.at_once;
+    Isometry3d X_WSole = next.X_WSole[s];
+    X_WSole.translation().z() += foot.lift + (s == 0 ? -0.5 : 0.5) * difference_;
+    X_WSole.linear() = Turned(foot.level) * X_WSole.linear() * Turned(tilt);
+    const Leg& leg = robot_.legs[s];
+    const LegIkSolution plain = SolveLegIk(leg, next.X_WB.inverse() * next.X_WSole[s]);
+    const LegIkSolution moved = SolveLegIk(leg, X_WB.inverse() * X_WSole);
+    if (plain.status != LegIkStatus::kSolved || moved.status != LegIkStatus::kSolved) continue;
+    bent[s] = moved.q - plain.q + next.torques[s] / options_.stiffness;
+  }
+  return bent;
+}
+
+JointCommand DcmController::Command(const MeasuredState& measured, const PlannedState& then,
+                                    const PlannedState& next) {
+  const EstimatedState state = EstimateState(robot_, measured, then);
+  SenseError(state, then);
+  const auto nearest = [&](const Vector2d& p) {
+    return NearestInSupport(then, robot_.sole_size, options_.inset, p);
+  };
+  const Vector2d planned = nearest(then.zmp);
+  const Vector2d zmp = nearest(then.zmp + (1.0 + options_.gain) * error_);
+  TurnSoles(measured, then, SharedLoads(then, robot_.sole_size, zmp),
+            SharedLoads(then, robot_.sole_size, planned));
+  // How far B's z leans from that of W, as a turn.
+  LevelFeet(Vector3d::UnitZ().cross(state.X_WB.linear().col(2)), then, next);
+  ShiftWaist(measured, then, zmp);
+  const std::array<Vector6d, 2> bent = Bent(next);
+  JointCommand command{next.q, next.speeds};
+  for (size_t s = 0; s < 2; ++s) {
+    command.q[s] += bent[s];
+    if (begun_) command.speeds[s] += (bent[s] - bent_[s]) / kPeriod;
+  }
+  bent_ = bent;
+  begun_ = true;
+  return command;
+}
+
+}  // namespace halfstep::control

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <limits>
+
+#include "experiments/control/state_estimate.h"
+#include "experiments/control/tracking_controller.h"
+
+namespace halfstep::control {
+
+/// What DcmController goes by: times and shares, so that gains go by the robot's size, mass and
+/// servos. Measured: experiments/README.md, "Tracking controllers".
+struct DcmOptions {
+  /// Of its servos, as its maker states it [N m/rad]; ∞: not known, then nothing is fed forward and
+  /// ankles give way as those of stiff servos have to. Too large: they give way too slowly.
+  double stiffness = std::numeric_limits<double>::infinity();
+  /// k: the DCM's error decays by e^(−kωt) where the soles are wide enough. Below 0 it grows.
+  double gain = 3.0;
+  double filter = 0.01;  ///< time constant of the DCM's error [s]
+  double inset = 0.05;   ///< of the soles, from each edge, where no ZMP is asked for [share of it]
+  /// Within which ankles make a sole's moment what was asked for [s]. 0.05: stiff servos sway.
+  double ankle_time = 0.15;
+  double leak = 0.5;  ///< within which soles become level again, and legs equally long [s]
+  /// Of a change of the moments asked for, the share by which ankles turn at once.
+  double at_once = 0.5;
+  /// Within which the difference of the feet's forces becomes what was asked for [s].
+  double force_time = 0.1;
+  /// Of the waist's lean, the share by which a foot in the air is held against it.
+  double level = 0.5;
+  /// Speed of the waist for each metre that the ZMP is off [1/s]. 2: larger pushes are survived,
+  /// and the ZMP is off five times as far without a push.
+  double waist_rate = 0.0;
+};
+
+/// Follows a plan as the field's stabilizers do: feedback of the divergent component of motion
+/// ξ = c + ċ/ω asks for a ZMP within the soles, the feet share it, ankles and legs give way until
+/// the soles' loads are what was asked for. Footsteps and their times are the plan's.
+/// Source: [Englsberger2015] §III, [Kajita2010] §III, [Caron2019] §III; experiments/README.md,
+/// "Tracking controllers".
+class DcmController final : public TrackingController {
+ public:
+  /// Borrows `robot`. Precondition: robot.masses.known().
+  DcmController(const RobotModel& robot, const DcmOptions& options);
+
+  JointCommand Command(const MeasuredState& measured, const PlannedState& then,
+                       const PlannedState& next) override;
+  std::unique_ptr<TrackingController> Clone() const override;
+
+ private:
+  // How a foot is commanded off its plan.
+  struct FootOffset {
+    Eigen::Vector2d tilt{0, 0};     // by the moment that is missing: roll, pitch in its frame [rad]
+    Eigen::Vector2d at_once{0, 0};  // by the moment that is asked for beside the plan's [rad]
+    Eigen::Vector3d level{0, 0, 0};  // against the waist's lean, a turn in W [rad]
+    double lift = 0.0;               // against the waist's lean [m]
+  };
+
+  void SenseError(const EstimatedState& state, const PlannedState& then);
+  void TurnSoles(const MeasuredState& measured, const PlannedState& then,
+                 const std::array<SoleLoad, 2>& wanted, const std::array<SoleLoad, 2>& planned);
+  void LevelFeet(const Eigen::Vector3d& lean, const PlannedState& then, const PlannedState& next);
+  void ShiftWaist(const MeasuredState& measured, const PlannedState& then,
+                  const Eigen::Vector2d& zmp);
+  std::array<Vector6d, 2> Bent(const PlannedState& next) const;
+
+  const RobotModel& robot_;
+  DcmOptions options_;
+  double omega_;           // [1/s]
+  double foot_stiffness_;  // moment of a sole on the floor for each radian [N m/rad]
+  bool begun_ = false;
+  Eigen::Vector2d error_{0, 0};  // of the DCM [m]
+  Eigen::Vector2d shift_{0, 0};  // of the waist [m]
+  double difference_ = 0.0;      // of the legs' lengths, left less right [m]
+  std::array<FootOffset, 2> feet_;
+  std::array<Vector6d, 2> bent_{Vector6d::Zero(), Vector6d::Zero()};  // what was added last
+};
+
+}  // namespace halfstep::control
