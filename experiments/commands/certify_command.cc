@@ -124,7 +124,7 @@ ExitStatus Certify(const CertifyCommand& command) {
   folder.Publish();
   if (!command.quiet) {
     std::cout << '\n'
-              << CertificateStatement(experiment.robot) << "\n\n"
+              << CertificateStatement(experiment.robot, evaluator.limits().tube != Tube{}) << "\n\n"
               << NotCoveredText(
                      NotCoveredBy(experiment.robot, experiment.scene, evaluator.limits()),
                      "not_covered in certificate.json");

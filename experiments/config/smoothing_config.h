@@ -39,7 +39,8 @@ struct SmoothingConfig {
   std::vector<FixedConfig> fixed;        ///< parameters that no method moves
   bool has_given = false;                ///< whether `given` names files
   GivenWalkFiles given;                  ///< of the method `given`
-  MarginLimits limits;                   ///< limits and demanded margins
+  MarginLimits limits;                   ///< limits, demanded margins and the tube
+  bool has_tube = false;                 ///< whether `tube` is there, which may be all 0
 };
 
 /// Makes a config's methods, and the margins and costs of one's own, those that a program has.

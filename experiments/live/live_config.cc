@@ -222,6 +222,11 @@ void DeclareFields(Fields& fields, LiveConfig* config, const Scene* scene) {
   fields.Group("live", {.meaning = "the episode", .required = true}, [&](Fields& f) {
     DeclareLive(f, &config->live, config->experiment.half_step.duration, scene);
   });
+  if (config->experiment.smoothing.has_tube) {
+    fields.Complain("smoothing",
+                    "has a `tube`, but what is promised of an episode is of the walk as planned "
+                    "(valid: without `tube`)");
+  }
   if (!config->experiment.has_goal) {
     fields.Complain("goal", "is missing (valid: an episode needs a goal)");
   }

@@ -71,7 +71,8 @@ void AddFamilies(const RobotModel& robot, json* report) {
     if (!Traits(family).for_some_robots || !WhyNotDemandable(family, robot).empty()) continue;
     IndexIn(&(*report)["families"], FamilyJson(family));
   }
-  if (StatesAccelerationLimits(robot)) (*report)["statement"] = CertificateStatement(robot);
+  // That of a walk with a tube is the walk's own.
+  if (StatesAccelerationLimits(robot)) (*report)["statement"] = CertificateStatement(robot, false);
 }
 
 // What is shown of each status.

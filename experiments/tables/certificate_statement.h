@@ -30,9 +30,24 @@ inline constexpr char kCertificateStatement[] =
     "scene are as their files describe them, that a controller tracks the motion, and any "
     "dynamics beyond these two ZMPs, torques and friction.";
 
-/// The same for a robot: where its file states limits of joint accelerations, these are named, too.
-inline std::string CertificateStatement(const RobotModel& robot) {
+/// What it says more where motions within a tube are certified, too.
+inline constexpr char kTubeStatement[] =
+    "The same holds, with what was demanded before `tube` raised it, of every motion that at every "
+    "instant stays within that tube of the walk (the centre of each sole within foot_m of its "
+    "place, turned by at most foot_rad; the waist within waist_m, turned by at most waist_rad; "
+    "each "
+    "joint of the legs within joint_rad, its speed within joint_speed_rad_s; the ZMP of the whole "
+    "robot within zmp_m), with all other joints and the instants of contact as planned, in floor, "
+    "joint, joint_speed, self_clearance, clearance, ground, no_step and zmp_robot: of all other "
+    "margins (those of the pendulum, reach, foot speeds, torques, friction, joint accelerations) "
+    "nothing is said beyond the walk itself. Margins of self_clearance and clearance are less by "
+    "what the tube can take from that pair or body. ";
+
+/// The same for a robot: where its file states limits of joint accelerations, these are named, too;
+/// with a tube, what holds in it.
+inline std::string CertificateStatement(const RobotModel& robot, bool has_tube) {
   std::string statement = kCertificateStatement;
+  if (has_tube) statement.insert(statement.find("What is not covered"), kTubeStatement);
   if (StatesAccelerationLimits(robot)) {
     statement.insert(statement.find("clearance between"),
                      "joint accelerations where the robot file limits them, ");
