@@ -5,7 +5,10 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
+
+#include "smoothing/margins/tube.h"
 
 namespace halfstep::verify {
 
@@ -73,6 +76,14 @@ struct NotCoveredItem {
   friend bool operator==(const NotCoveredItem&, const NotCoveredItem&) = default;
 };
 
+/// How far motions may be from the walk that a certificate speaks of, and what it says that this
+/// adds to its demands and takes from its margins.
+struct TubeText {
+  Tube tube;                                           ///< [m], [rad], [rad/s]
+  std::vector<std::pair<std::string, double>> raised;  ///< by family
+  double of_body = 0, of_pair = 0;                     ///< taken at most from a clearance [m]
+};
+
 /// What certificate.json and certificate.csv claim; nothing of it is believed.
 struct CertificateText {
   /// For the whole walk: "certified", and two texts for people.
@@ -85,6 +96,7 @@ struct CertificateText {
   std::vector<NotCoveredItem> not_covered;          ///< of which nothing is claimed
   std::optional<double> foot_speed, foot_yaw_rate;  ///< [m/s], [rad/s]; none: no limit.
   double joint_speed_scale = 1;                     ///< fraction of the robot's limits
+  std::optional<TubeText> tube;                     ///< none: of the walk alone
   std::string robot, scene;  ///< paths relative to the run folder; scene: or "none".
   /// SHA-256 as hexadecimal text.
   std::string trajectory_hash, certificate_hash, robot_hash, scene_hash;

@@ -106,7 +106,7 @@ void CheckHead(const CertificateText& certificate, const RobotModel& robot, doub
     findings->Disagree("certificate.json: " + Quote(certificate.unknown) +
                        " is no key that is known here, so nothing can be said of it");
   }
-  if (certificate.statement != CertificateStatement(robot)) {
+  if (certificate.statement != CertificateStatement(robot, certificate.tube.has_value())) {
     findings->Disagree("the certificate's statement is not the one that is verified");
   }
   if (certificate.duration != end) {
