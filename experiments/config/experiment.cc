@@ -20,9 +20,10 @@ namespace fs = std::filesystem;
 bool IsShipped(const fs::path& robot) { return !robot.has_parent_path() && !robot.has_extension(); }
 
 // Demands nothing of the families for which the robot's files do not say enough; what only some
-// robots have stays as the config says.
-void LeaveOutWhatIsUnknown(Experiment* experiment) {
+// robots have stays as the config says. Adds what the tube asks of this robot.
+void FitDemands(Experiment* experiment) {
   MarginLimits& limits = experiment->config.smoothing.limits;
+  limits.raised = RaisedBy(limits.tube, experiment->robot);
   for (const MarginFamily family : AllMarginFamilies()) {
     if (Traits(family).may_be_absent) continue;
     if (WhyNotDemandable(family, experiment->robot).empty()) continue;
@@ -185,14 +186,15 @@ Experiment Prepare(const ExperimentConfig& config, Place place) {
                         .robot = std::move(place.robot),
                         .scene = std::move(place.scene),
                         .sequence = {}};
-  LeaveOutWhatIsUnknown(&experiment);
+  FitDemands(&experiment);
   experiment.sequence = SequenceOf(config, experiment.robot, *experiment.scene.ground);
   return experiment;
 }
 
 std::optional<std::string> FootholdOnNoStep(const Experiment& experiment) {
   const NoStepAreas areas(experiment.scene, experiment.robot.sole_outline);
-  const double apart = experiment.config.smoothing.limits.demanded_of(MarginFamily::kNoStep);
+  const MarginLimits limits = Demandable(experiment.config.smoothing.limits, experiment.robot);
+  const double apart = limits.demanded_of(MarginFamily::kNoStep);
   const auto touches = [&](const Pose2& X_WF) { return !areas.Clears(X_WF, apart); };
   const std::array<Pose2, 2> start = StartFromAbove(experiment.config, experiment.robot);
   for (Side side : {Side::kLeft, Side::kRight}) {

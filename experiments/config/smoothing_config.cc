@@ -85,6 +85,24 @@ void DeclareLimits(Fields& fields, SmoothingConfig* c) {
                          .none_left_out = true});
 }
 
+void DeclareTube(Fields& fields, Tube* tube) {
+  const auto length = [&fields](const char* key, double* value, const char* meaning) {
+    fields.Number(key, value, {.meaning = meaning, .unit = "m", .min = 0, .max = 0.5});
+  };
+  const auto turn = [&fields](const char* key, double* value, const char* meaning) {
+    fields.Number(key, value, {.meaning = meaning, .unit = "deg", .min = 0, .max = 30});
+  };
+  length("foot_m", &tube->foot, "each sole's centre from its place, height included");
+  turn("foot_deg", &tube->foot_turn, "each sole turned, about any axis");
+  length("waist_m", &tube->waist, "origin of the waist's frame from its place");
+  turn("waist_deg", &tube->waist_turn, "the waist turned, about any axis");
+  fields.Number("joint_rad", &tube->joint,
+                {.meaning = "angle of each leg joint", .unit = "rad", .min = 0, .max = 0.5});
+  fields.Number("joint_speed_rad_s", &tube->joint_speed,
+                {.meaning = "speed of each leg joint", .unit = "rad/s", .min = 0, .max = 100});
+  length("zmp_m", &tube->zmp, "ZMP of the whole robot on the floor");
+}
+
 void DeclareMargins(Fields& fields, MarginLimits* l) {
   for (const MarginFamily family : FamiliesWith(l->own)) {
     const FamilyTraits& traits = Traits(family);
@@ -186,6 +204,11 @@ void DeclareSmoothing(Fields& fields, SmoothingConfig* c) {
                [&](Fields& f) { DeclareLimits(f, c); });
   fields.Group("margins", {.meaning = "demanded margins: feasible means at least this far inside"},
                [&](Fields& f) { DeclareMargins(f, &c->limits); });
+  fields.OptionalGroup(
+      "tube", &c->has_tube,
+      {.meaning = "how far motions may be from the plan that keep what is demanded as well",
+       .otherwise = "the planned motion alone"},
+      [&](Fields& f) { DeclareTube(f, &c->limits.tube); });
 }
 
 std::vector<FixedParameter> FixedParameters(const SmoothingConfig& config) {

@@ -41,10 +41,11 @@ struct SmoothingConfig {
   bool has_given = false;                ///< whether `given` names files
   GivenWalkFiles given;                  ///< of the method `given`
   std::string profile{Name(DemandProfile::kWalkable)};  ///< of which `limits` are, but for keys
-  MarginLimits limits = LimitsOf(DemandProfile::kWalkable);  ///< limits and demanded margins
+  MarginLimits limits = LimitsOf(DemandProfile::kWalkable);  ///< limits, demanded margins, tube
   /// Acceleration that is assumed to be allowed to leg joints of which the robot file states none
   /// [rad/s²]; none: nothing is assumed.
   std::optional<double> assumed_acceleration;
+  bool has_tube = false;  ///< whether `tube` is there, which may be all 0
 };
 
 /// Makes a config's methods, and the margins and costs of one's own, those that a program has.

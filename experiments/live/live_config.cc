@@ -225,6 +225,11 @@ void DeclareFields(Fields& fields, LiveConfig* config, const Scene* scene) {
   if (config->experiment.has_replay) {
     fields.Complain("replay", "is of runs (valid: `halfstep replay` of the episode)");
   }
+  if (config->experiment.smoothing.has_tube) {
+    fields.Complain("smoothing",
+                    "has a `tube`, but what is promised of an episode is of the walk as planned "
+                    "(valid: without `tube`)");
+  }
   if (!config->experiment.has_goal) {
     fields.Complain("goal", "is missing (valid: an episode needs a goal)");
   }

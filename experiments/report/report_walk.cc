@@ -146,6 +146,7 @@ json WalkJson(const fs::path& folder, double spacing) {
     }
     walk["certificate"][key] = certificate[key];
   }
+  if (certificate.contains("tube")) walk["certificate"]["tube"] = certificate["tube"];
   return walk;
 }
 

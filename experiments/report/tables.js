@@ -128,6 +128,20 @@ function notCovered(list) {
               []));
 }
 
+/** How far motions may be from the walk, and what that raises; '' where it is the walk alone. */
+function tubeWords(tube) {
+  if (!tube) return '';
+  const degrees = (angle) => `${number(angle * 180 / Math.PI)}°`;
+  const raised = Object.entries(tube.raised).filter(([, by]) => by > 0)
+                     .map(([name, by]) => `${marginWords(name)} by ${number(by)}`);
+  return `Tube: soles within ${number(tube.foot_m)} m and ${degrees(tube.foot_rad)} of the walk, ` +
+      `waist ${number(tube.waist_m)} m and ${degrees(tube.waist_rad)}, leg joints ` +
+      `${number(tube.joint_rad)} rad and ${number(tube.joint_speed_rad_s)} rad/s, ZMP ` +
+      `${number(tube.zmp_m)} m. It raises what is demanded of ${raised.join(', ')}, and takes up to ` +
+      `${number(tube.taken.clearance)} m from the clearance of a body, ` +
+      `${number(tube.taken.self_clearance)} m from that of a pair.`;
+}
+
 /** The statement, and the verdict on each walk. */
 export function guarantee(parent, statement, walks) {
   const shown = walks.filter((walk) => walk.certificate);
@@ -141,7 +155,7 @@ export function guarantee(parent, statement, walks) {
   const demanded = Object.entries(one?.demanded ?? {}).map(([name, value]) =>
     `${marginWords(name)} ≥ ${number(value)}` +
     (limits[name] ? ` (limit ${number(limits[name])})` : ""));
-  const [promised, excepted] = statement.split(/(?=Not guaranteed:)/);
+  const [promised, excepted] = (one?.tube ? one.statement : statement).split(/(?=Not guaranteed:)/);
   parent.replaceChildren(
       element('h2', {text: 'What is guaranteed'}),
       element('p', {text: promised}),
@@ -150,6 +164,7 @@ export function guarantee(parent, statement, walks) {
         className: 'small',
         text: demanded.length ? `Demanded [m, rad, s]: ${demanded.join(', ')}.` : ''
       }),
+      ...(one?.tube ? [element('p', {className: 'small', text: tubeWords(one.tube)})] : []),
       element('p', {text: excepted ?? ''}),
       notCovered(one?.not_covered ?? []),
   );

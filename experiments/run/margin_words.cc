@@ -7,6 +7,7 @@
 
 #include "smoothing/margins/family_traits.h"
 #include "wpg/files/text.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -54,9 +55,15 @@ std::string MissedWords(const MarginEvaluator& evaluator, const Margin& margin) 
     return of + std::string(Traits(margin.family).untold.of_plan);
   }
   std::string words = ValueWords(margin, subject);
-  const double demanded = evaluator.limits().demanded_of(margin.family);
+  const MarginLimits& limits = evaluator.limits();
+  const double raised = Nth(limits.raised, margin.family);
+  // Clearances are those of the worst motion, of other families more is demanded.
+  const bool of_tube = limits.tube != Tube{} && Traits(margin.family).in_tube != nullptr;
+  if (of_tube && raised == 0.0) words += " in the worst of the tube";
+  const double demanded = limits.demanded_of(margin.family);
   if (demanded != 0.0) {
     words += "; " + Amount(demanded, Unit(margin.family)) + " demanded";
+    if (raised > 0.0) words += ", " + Amount(raised, Unit(margin.family)) + " of it for the tube";
   }
   if (margin.stop_after >= 0) {
     words += Formatted(", if the walk is stopped after half-step %d", margin.stop_after + 1);

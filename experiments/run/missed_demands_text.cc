@@ -48,10 +48,15 @@ std::string Remedy(const MarginEvaluator& evaluator, const MissedDemand& demand)
   const FamilyTraits& traits = Traits(family);
   std::string text =
       "what may help with " + std::string(traits.name) + ": " + std::string(traits.remedy);
+  const MarginLimits& limits = evaluator.limits();
+  const double spare = demand.worst.value - Nth(limits.raised, family);  // for the margin alone
   // Less demanded helps where the margin itself is kept.
-  if (demand.worst.value >= 0.0 && evaluator.limits().demanded_of(family) > 0.0) {
+  if (spare >= 0.0 && limits.demanded_of(family) > 0.0) {
     text += Formatted(", or less demanded (`smoothing.margins.%s` below %.3g)", traits.key.data(),
-                      demand.worst.value);
+                      spare);
+  }
+  if (traits.in_tube != nullptr && limits.tube != Tube{}) {
+    text += ", or a narrower `smoothing.tube`";
   }
   return text;
 }

@@ -9,6 +9,7 @@
 #include "planner/search/planners.h"
 #include "planner/swept/obstacle_places.h"
 #include "planner/swept/swept_volume_query.h"
+#include "smoothing/margins/demandable.h"
 #include "smoothing/margins/not_covered_by.h"
 #include "wpg/check.h"
 #include "wpg/files/input_error.h"
@@ -148,7 +149,10 @@ BakedHalfSteps BakeHalfSteps(const RobotModel& robot, const ExperimentConfig& co
          MissedInPlace(robot, Scene{}, config)});
   }
   SweptVolumeOptions options = config.swept_volumes.options;
-  options.clearance = config.smoothing.limits.demanded_of(MarginFamily::kClearance);
+  const MarginLimits limits = Demandable(config.smoothing.limits, robot);
+  // One distance for all bodies, as far as any of them may be from its place.
+  options.clearance =
+      limits.demanded_of(MarginFamily::kClearance) + TubeShift(robot, limits.tube).body;
   std::string folder = DefaultCacheFolder();
   if (!config.swept_volumes.cache.empty()) {
     folder = (std::filesystem::path(config.directory) / config.swept_volumes.cache).string();
@@ -209,8 +213,9 @@ PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
     return walk;
   }
   const SweptVolumes& volumes = *walk.half_steps.cached.volumes;
+  const MarginLimits limits = Demandable(config.smoothing.limits, place.robot);
   const SweptVolumeQuery query(volumes, place.robot.sole_outline, place.scene,
-                               config.smoothing.limits.demanded_of(MarginFamily::kNoStep));
+                               limits.demanded_of(MarginFamily::kNoStep));
   const HalfStepCertifier certifier(place.robot, place.scene, config);
   const MarginEvaluator evaluator(place.robot, place.scene, config.smoothing.limits);
   const CertifiedFeasibility test(evaluator, config.smoothing.certification);

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "experiments/run/margin_words.h"
+#include "experiments/run/tube_words.h"
 #include "experiments/tables/answer_words.h"
 #include "experiments/tables/ending_words.h"
 #include "experiments/tables/not_covered_json.h"
@@ -179,7 +180,8 @@ std::string RunTable(const Experiment& experiment, const WalkProblem& problem,
   out << experiment.config.name << ": " << experiment.robot.name << ", "
       << experiment.sequence.size() << " half-steps, " << experiment.scene.obstacles.size()
       << (experiment.scene.obstacles.size() == 1 ? " obstacle" : " obstacles")
-      << "; feasible means " << problem.test().Description() << "\n\n";
+      << "; feasible means " << problem.test().Description() << "\n"
+      << TubeWords(evaluator) << "\n";
   out << Formatted("%-22s %-16s %-10s %10s %8s %9s %10s %s\n", "method", "status", "for all t",
                    "duration", "speed-up", "low apex", "clearance", "worst margin");
   for (const MethodRun& run : runs) {

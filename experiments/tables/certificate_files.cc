@@ -5,6 +5,7 @@
 #include "experiments/tables/answer_words.h"
 #include "experiments/tables/csv_writer.h"
 #include "experiments/tables/not_covered_json.h"
+#include "experiments/tables/tube_json.h"
 #include "smoothing/margins/not_covered_by.h"
 #include "wpg/files/sha256.h"
 
@@ -90,7 +91,8 @@ std::string CertificateJson(const Experiment& experiment, const CertifiedFeasibi
   if (limits.landing_speed) of_limits["landing_speed_m_s"] = *limits.landing_speed;
   const bool certified = walk.answer.verdict == Verdict::kFeasible;
   const auto scene = ScenePath(named);
-  const ordered_json json = {
+  const bool has_tube = limits.tube != Tube{};
+  ordered_json json = {
       {"format", 2},
       {"verdict", VerdictName(walk.answer.verdict)},
       {"message", certified ? "every demanded margin is kept at all times"
@@ -109,6 +111,7 @@ std::string CertificateJson(const Experiment& experiment, const CertifiedFeasibi
         {"certificate.csv", Sha256(certificate_csv)},
         {"robot", CombinedSha256(experiment.robot.files)},
         {"scene", CombinedSha256(experiment.scene.files)}}}};
+  if (has_tube) json["tube"] = TubeJson(test.evaluator());
   return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 

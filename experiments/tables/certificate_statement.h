@@ -31,10 +31,29 @@ inline constexpr char kCertificateStatement[] =
     "scene are as their files describe them, that a controller tracks the motion, and any "
     "dynamics beyond these two ZMPs, torques and friction.";
 
+/// What it says more where motions within a tube are certified, too.
+inline constexpr char kTubeStatement[] =
+    "The same holds, with what was demanded before `tube` raised it, of every motion that at every "
+    "instant stays within that tube of the walk (the centre of each sole within foot_m of its "
+    "place, turned by at most foot_rad; the waist within waist_m, turned by at most waist_rad; "
+    "each "
+    "joint of the legs within joint_rad, its speed within joint_speed_rad_s; the ZMP of the whole "
+    "robot within zmp_m), with all other joints and the instants of contact as planned, in floor, "
+    "joint, joint_speed, self_clearance, clearance, ground, no_step and zmp_robot: of all other "
+    "margins (those of the pendulum, reach, foot speeds, torques, friction, joint accelerations) "
+    "nothing is said beyond the walk itself. Margins of self_clearance and clearance are less by "
+    "what the tube can take from that pair or body. ";
+
+/// What a statement speaks of only where a config asks for it.
+struct StatedOnRequest {
+  bool double_support = false;  ///< whether it is demanded
+  bool landing_speed = false;   ///< whether there is a limit
+  bool tube = false;            ///< whether it holds in a tube
+};
+
 /// The same for a robot and what is demanded of its walks: where its joint accelerations have
-/// limits and where families that a config has to ask for are demanded, these are named, too.
-inline std::string CertificateStatement(const RobotModel& robot, bool double_support,
-                                        bool landing_speed) {
+/// limits, these are named, too, and so is what a config has to ask for.
+inline std::string CertificateStatement(const RobotModel& robot, const StatedOnRequest& stated) {
   std::string statement = kCertificateStatement;
   const auto insert = [&statement](const char* before, const char* words) {
     statement.insert(statement.find(before), words);
@@ -45,19 +64,21 @@ inline std::string CertificateStatement(const RobotModel& robot, bool double_sup
                                       "robot file states none, "
                                     : "joint accelerations where the robot file limits them, ");
   }
-  if (landing_speed) {
+  if (stated.tube) insert("What is not covered", kTubeStatement);
+  if (stated.landing_speed) {
     insert("ZMP of the linear", "how fast the swing foot sinks in its last centimetre, ");
   }
-  if (double_support) {
+  if (stated.double_support) {
     insert(") is at least", ", how long the ZMP of each half-step goes from foot to foot");
   }
   return statement;
 }
 /// By its limits and demands.
 inline std::string CertificateStatement(const RobotModel& robot, const MarginLimits& limits) {
-  return CertificateStatement(robot,
-                              limits.demanded_of(MarginFamily::kDoubleSupport) != kNotDemanded,
-                              limits.landing_speed.has_value());
+  return CertificateStatement(
+      robot, {.double_support = limits.demanded_of(MarginFamily::kDoubleSupport) != kNotDemanded,
+              .landing_speed = limits.landing_speed.has_value(),
+              .tube = limits.tube != Tube{}});
 }
 
 }  // namespace halfstep

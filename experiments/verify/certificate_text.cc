@@ -25,9 +25,10 @@ std::string UnknownKeyOf(const JsonMember& root) {
   std::vector<std::string> families(kFamilyNames.begin(), kFamilyNames.end());
   families.push_back("own");  // of a program that registered margins: told elsewhere
   for (const std::string& unknown :
-       {UnknownKey(root, "",
-                   {"format", "verdict", "message", "statement", "duration_s", "resolution_s",
-                    "demanded", "limits", "statements", "not_covered", "robot", "scene", "sha256"}),
+       {UnknownKey(
+            root, "",
+            {"format", "verdict", "message", "statement", "duration_s", "resolution_s", "demanded",
+             "limits", "statements", "not_covered", "robot", "scene", "sha256", "tube"}),
         UnknownKey(root.Object("demanded"), "demanded.", families),
         UnknownKey(root.Object("statements"), "statements.", families),
         UnknownKey(root.Object("limits"), "limits.",
@@ -42,6 +43,25 @@ std::string UnknownKeyOf(const JsonMember& root) {
     if (!unknown.empty()) return unknown;
   }
   return "";
+}
+
+TubeText TubeOf(const JsonMember& member) {
+  TubeText text;
+  text.tube = {.foot = member.Number("foot_m"),
+               .foot_turn = member.Number("foot_rad"),
+               .waist = member.Number("waist_m"),
+               .waist_turn = member.Number("waist_rad"),
+               .joint = member.Number("joint_rad"),
+               .joint_speed = member.Number("joint_speed_rad_s"),
+               .zmp = member.Number("zmp_m")};
+  const JsonMember raised = member.Object("raised");
+  for (const auto& [name, value] : raised.object().items()) {
+    text.raised.emplace_back(name, raised.Number(name.c_str()));
+  }
+  const JsonMember taken = member.Object("taken");
+  text.of_body = taken.Number("clearance");
+  text.of_pair = taken.Number("self_clearance");
+  return text;
 }
 
 }  // namespace
@@ -85,6 +105,7 @@ CertificateText ReadCertificateJson(const std::string& path, const std::string& 
   };
   c.joint_acceleration = if_there("joint_acceleration_rad_s2");
   c.landing_speed = if_there("landing_speed_m_s");
+  if (root.object().contains("tube")) c.tube = TubeOf(root.Object("tube"));
   c.robot = root.String("robot");
   c.scene = root.String("scene");
   const JsonMember hashes = root.Object("sha256");

@@ -5,7 +5,10 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
+
+#include "smoothing/margins/tube.h"
 
 namespace halfstep::verify {
 
@@ -96,6 +99,14 @@ struct NotCoveredItem {
   friend bool operator==(const NotCoveredItem&, const NotCoveredItem&) = default;
 };
 
+/// How far motions may be from the walk that a certificate speaks of, and what it says that this
+/// adds to its demands and takes from its margins.
+struct TubeText {
+  Tube tube;                                           ///< [m], [rad], [rad/s]
+  std::vector<std::pair<std::string, double>> raised;  ///< by family
+  double of_body = 0, of_pair = 0;                     ///< taken at most from a clearance [m]
+};
+
 /// What certificate.json and certificate.csv claim; nothing of it is believed.
 struct CertificateText {
   /// For the whole walk: "certified", and two texts for people.
@@ -110,6 +121,7 @@ struct CertificateText {
   double joint_speed_scale = 1;                     ///< fraction of the robot's limits
   std::optional<double> landing_speed;              ///< [m/s]; none: no limit
   std::optional<double> joint_acceleration;         ///< assumed [rad/s²]; none: nothing is
+  std::optional<TubeText> tube;                     ///< none: of the walk alone
   std::string robot, scene;  ///< paths relative to the run folder; scene: or "none".
   /// SHA-256 as hexadecimal text.
   std::string trajectory_hash, certificate_hash, robot_hash, scene_hash;

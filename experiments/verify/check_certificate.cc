@@ -110,9 +110,11 @@ void CheckHead(const CertificateText& certificate, const RobotModel& robot, doub
     findings->Disagree("certificate.json: " + Quote(certificate.unknown) +
                        " is no key that is known here, so nothing can be said of it");
   }
-  if (certificate.statement !=
-      CertificateStatement(robot, certificate.demanded[kDoubleSupport] != kNotDemanded,
-                           certificate.landing_speed.has_value())) {
+  const StatedOnRequest stated{
+      .double_support = certificate.demanded[kDoubleSupport] != kNotDemanded,
+      .landing_speed = certificate.landing_speed.has_value(),
+      .tube = certificate.tube.has_value()};
+  if (certificate.statement != CertificateStatement(robot, stated)) {
     findings->Disagree("the certificate's statement is not the one that is verified");
   }
   if (certificate.duration != end) {

@@ -7,7 +7,8 @@
 
 namespace halfstep::verify {
 
-Distances::Distances(const RobotModel& robot, const Scene& scene) : robot_(robot), scene_(scene) {
+Distances::Distances(const RobotModel& robot, const Scene& scene, const Tube& tube)
+    : robot_(robot), scene_(scene), ways_(tube, robot) {
   std::vector<Eigen::AlignedBox3d> boxes;
   for (const RobotBody& body : robot.bodies) bodies_.emplace_back(body.shape);
   for (const Obstacle& obstacle : scene.obstacles) {
@@ -44,7 +45,8 @@ Eigen::AlignedBox3d Distances::Around(size_t body, const Placement& at) const {
 
 std::vector<size_t> Distances::Near(const Eigen::AlignedBox3d& box_W, double reach) const {
   // A hair more, so that rounding leaves out nothing that is just within reach.
-  const Eigen::Vector3d grown = Eigen::Vector3d::Constant(std::max(reach, 0.0) + 1e-9);
+  const double taken = ways_.bodies.empty() ? 0.0 : *std::ranges::max_element(ways_.bodies);
+  const Eigen::Vector3d grown = Eigen::Vector3d::Constant(std::max(reach + taken, 0.0) + 1e-9);
   std::vector<size_t> near;
   for (const size_t i : around_still_.Meeting({box_W.min() - grown, box_W.max() + grown})) {
     near.push_back(still_[i]);
@@ -78,7 +80,7 @@ Distances::Result Distances::FromObstacle(size_t body, size_t obstacle, const Pl
                                           double t, double enough) {
   const Eigen::Isometry3d X_WB = at.OfBody(robot_.bodies[body]);
   const Eigen::Isometry3d X_WO = paths_[obstacle].At(t);
-  const double taken = paths_[obstacle].Uncertainty(t);
+  const double taken = paths_[obstacle].Uncertainty(t) + ways_.bodies[body];
   const double quick = QuickBound(bodies_[body], X_WB, obstacles_[obstacle], X_WO) - taken;
   if (quick >= enough) return {quick, false};
   ++queries_;
@@ -95,10 +97,11 @@ double Distances::ObstacleChange(size_t obstacle, double from, double to) const 
 Distances::Result Distances::OfPair(size_t a, size_t b, const Placement& at, double enough) {
   const Eigen::Isometry3d X_Ba = at.OfBody_B(robot_.bodies[a]),
                           X_Bb = at.OfBody_B(robot_.bodies[b]);
-  const double quick = QuickBound(bodies_[a], X_Ba, bodies_[b], X_Bb);
+  const double taken = ways_.nearer(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b));
+  const double quick = QuickBound(bodies_[a], X_Ba, bodies_[b], X_Bb) - taken;
   if (quick >= enough) return {quick, false};
   ++queries_;
-  return {Solid::Distance(bodies_[a], X_Ba, bodies_[b], X_Bb), true};
+  return {Solid::Distance(bodies_[a], X_Ba, bodies_[b], X_Bb) - taken, true};
 }
 
 double Distances::NearestObstacle(const Placement& at, double t, double cap) {

@@ -7,18 +7,20 @@
 #include "experiments/verify/obstacle_path.h"
 #include "experiments/verify/played_motion.h"
 #include "experiments/verify/solid.h"
+#include "experiments/verify/tube_raise.h"
 #include "planner/scene/scene.h"
 
 namespace halfstep::verify {
 
 /// Distances of the robot's bodies from obstacles and from each other, by Solid. Obstacles are
 /// where they are said to be at a time t of the walk [s], and distances from them are less than
-/// that by how far from there they may be. Borrows robot and scene. Const but for the count of
+/// that by how far from there they may be. All distances are less by what a tube can take from
+/// them. Borrows robot and scene. Const but for the count of
 /// queries.
 class Distances {
  public:
-  /// Both are borrowed.
-  Distances(const RobotModel& robot, const Scene& scene);
+  /// Robot and scene are borrowed.
+  Distances(const RobotModel& robot, const Scene& scene, const Tube& tube = {});
 
   const Scene& scene() const { return scene_; }               ///< as given
   size_t num_bodies() const { return bodies_.size(); }        ///< those of the robot
@@ -70,6 +72,7 @@ class Distances {
   const Scene& scene_;
   std::vector<Solid> bodies_, obstacles_;
   std::vector<ObstaclePath> paths_;
+  BodyWays ways_;
   std::vector<size_t> still_, others_;  // obstacles that are known to stay where they are
   BoxIndex around_still_;               // boxes around the former, in W
   long queries_ = 0;

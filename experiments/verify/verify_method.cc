@@ -30,6 +30,7 @@
 #include "experiments/verify/own_names.h"
 #include "experiments/verify/robot_numbers.h"
 #include "experiments/verify/tolerances.h"
+#include "experiments/verify/tube_raise.h"
 #include "smoothing/methods/dichotomy.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/sha256.h"
@@ -209,7 +210,7 @@ void CheckMotion(const VerifyOptions& options, const ExperimentConfig& config,
     findings->Say("clearances: not examined, for these are not the certificate's files");
     return;
   }
-  Distances distances(walk.robot(), *scene);
+  Distances distances(walk.robot(), *scene, certificate.tube ? certificate.tube->tube : Tube{});
   CheckPlayed(motion, walk, certificate, tolerance, &distances, findings);
   CheckStopBranches(walk, {config.smoothing.stop_branches, period}, certificate, tolerance,
                     &distances, findings);
@@ -255,8 +256,11 @@ VerifiedStatement VerifyMethod(const VerifyOptions& options, const RunManifest& 
   findings->Say(Formatted("SHA-256: trajectory, certificate, %zu robot files, %zu scene files",
                           robot.files.size(), scene.files.size()));
   CheckFiles(options.run, folder, manifest, findings);
-  const RobotModel by_config = WithAccelerations(of_files, config.smoothing.assumed_acceleration);
-  CheckAgainstConfig(certificate, by_config, config.smoothing, findings);
+  SmoothingConfig demanded = config.smoothing;
+  demanded.limits = WithTube(config.smoothing, robot);
+  CheckTube(certificate, config.smoothing, robot, findings);
+  CheckAgainstConfig(certificate, WithAccelerations(of_files, demanded.assumed_acceleration),
+                     demanded, findings);
   CheckDemandOfStopBranches(config.smoothing.stop_branches, manifest.acceptance, findings);
   const auto iterations =
       !files.Has("iterates.csv")
@@ -269,7 +273,7 @@ VerifiedStatement VerifyMethod(const VerifyOptions& options, const RunManifest& 
   const std::vector<ClaimRow> claimed = ReadCertificateCsv(files.PathOf("certificate.csv"), claims);
   const std::vector<PlayedRow> rows =
       ReadTrajectory(files.PathOf("trajectory.csv"), trajectory, robot);
-  CheckWorstMargin(summary, folder, rows, robot, certificate, config.smoothing.limits, findings);
+  CheckWorstMargin(summary, folder, rows, robot, certificate, demanded, findings);
   CheckArithmetic(certificate, claimed, robot, rows.empty() ? 0 : rows.back().t, findings);
   const std::vector<NotCovered> not_covered = FindNotCovered(certificate, robot, scene);
   CheckNotCovered("certificate.json", certificate.not_covered, not_covered, findings);

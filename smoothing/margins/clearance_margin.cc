@@ -2,13 +2,15 @@
 #include <cmath>
 
 #include "smoothing/margins/family_class.h"
+#include "smoothing/margins/tube_levers.h"
 #include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
 
 // Distance from a body of the robot to the obstacles where they are said to be at that time, less
-// how far from there they may be [m]; at most the clearance cap; −∞ when a leg does not reach.
+// how far from there they may be, and less how far the body may be from its place in a tube
+// [m]; at most the clearance cap; −∞ when a leg does not reach.
 // Proved body by body: over an interval each obstacle takes off its own speed times the half
 // width. Subject: index of RobotModel::bodies. Other: the obstacle.
 class ClearanceMargin final : public MarginStatements {
@@ -28,9 +30,12 @@ class ClearanceMargin final : public MarginStatements {
       .raised = true,
       .cost = MarginCost::kObstacles,
       .row = MarginFamily::kClearance,
+      // What a tube takes is taken from the margin of each body.
+      .in_tube = [](const TubeShift&) { return 0.0; },
   };
 
-  explicit ClearanceMargin(const MarginPlace& place) : MarginStatements(kTraits), place_(place) {}
+  explicit ClearanceMargin(const MarginPlace& place)
+      : MarginStatements(kTraits), place_(place), levers_(place.robot) {}
 
   int count() const override { return static_cast<int>(place_.robot.bodies.size()); }
 
@@ -47,13 +52,30 @@ class ClearanceMargin final : public MarginStatements {
   Margin Least(Instant* at, double enough) const override {
     if (!at->reachable()) return Of(-kUnlimited, -1);
     const double cap = std::min(enough, ClearanceCap(at->limits()));
-    return place_.clearances.NearestObstacle(at->posture(), at->t(), cap, &at->scratch().bodies);
+    BodyClearances::Scratch& scratch = at->scratch().bodies;
+    if (at->limits().tube == Tube{}) {
+      return place_.clearances.NearestObstacle(at->posture(), at->t(), cap, &scratch);
+    }
+    Margin nearest = Of(cap, -1);
+    for (size_t b = 0; b < place_.clearances.num_bodies(); ++b) {
+      Lower(OfBody(*at, at->posture(), b, nearest.value), &nearest);
+    }
+    return nearest;
   }
 
   std::optional<Margin> FirstBelow(Instant* at, double demanded) const override {
     if (!at->reachable()) return Of(-kUnlimited, -1);
-    return place_.clearances.FirstBodyBelow(at->posture(), at->t(), demanded,
-                                            &at->scratch().bodies);
+    if (at->limits().tube == Tube{}) {
+      return place_.clearances.FirstBodyBelow(at->posture(), at->t(), demanded,
+                                              &at->scratch().bodies);
+    }
+    for (size_t b = 0; b < place_.clearances.num_bodies(); ++b) {
+      if (!place_.clearances.BodyClears(b, at->posture(), at->t(), demanded + WayOf(*at, b),
+                                        &at->scratch().bodies)) {
+        return OfBody(*at, at->posture(), b, demanded + 1.0);
+      }
+    }
+    return std::nullopt;
   }
 
   void AddBelow(Instant* at, double demanded, std::vector<Margin>* below) const override {
@@ -61,8 +83,9 @@ class ClearanceMargin final : public MarginStatements {
     const BodyClearances& clearances = place_.clearances;
     BodyClearances::Scratch& scratch = at->scratch().bodies;
     for (size_t b = 0; b < clearances.num_bodies(); ++b) {
-      if (clearances.BodyClears(b, at->posture(), at->t(), demanded, &scratch)) continue;
-      below->push_back(clearances.OfBody(b, at->posture(), at->t(), demanded, &scratch));
+      const double apart = demanded + WayOf(*at, b);
+      if (clearances.BodyClears(b, at->posture(), at->t(), apart, &scratch)) continue;
+      below->push_back(OfBody(*at, at->posture(), b, demanded));
     }
   }
 
@@ -71,8 +94,8 @@ class ClearanceMargin final : public MarginStatements {
     const Posture& posture = at->posture();
     const BodyClearances& clearances = place_.clearances;
     BodyClearances::Scratch& scratch = at->scratch().bodies;
-    const double far = rows->cutoff_margin();
     for (size_t b = 0; b < place_.robot.bodies.size(); ++b) {
+      const double way = WayOf(*at, b), far = rows->cutoff_margin() + way;
       if (clearances.BodyClears(b, posture, at->t(), far, &scratch)) continue;
       const auto nearest = clearances.NearestTo(b, posture, at->t(), far, &scratch);
       if (nearest.obstacle < 0) continue;
@@ -85,7 +108,7 @@ class ClearanceMargin final : public MarginStatements {
       const Eigen::Vector3d velocity =
           obstacle.motion.VelocityAt(obstacle.X_WO, at->t(), gap.point_b_W);
       const double rate = -gap.normal_W.dot(velocity) - obstacle.motion.UncertaintyRateAt(at->t());
-      rows->AddOfPosture(at, nearest.margin, gradient, rate);
+      rows->AddOfPosture(at, nearest.margin - way, gradient, rate);
     }
   }
 
@@ -106,18 +129,19 @@ class ClearanceMargin final : public MarginStatements {
     std::erase_if(*open, [&](uint16_t body) {
       if (proof.violated) return false;
       const double bound = interval.motion.displacement[body] + rounding;  // of the body alone
-      if (clearances.BodyClears(body, posture, t, demanded + bound, &scratch, half_width)) {
+      const double apart = demanded + WayOf(interval.mid, body);
+      if (clearances.BodyClears(body, posture, t, apart + bound, &scratch, half_width)) {
         if (interval.with_margins) {
           const double enough = std::max(cap, demanded + bound + rounding);
-          const Margin margin = clearances.OfBody(body, posture, t, enough, &scratch, half_width);
+          const Margin margin = OfBody(interval.mid, posture, body, enough, half_width);
           const double of_obstacle =
               margin.other < 0 ? 0.0 : clearances.obstacle_speed(margin.other) * half_width;
           proof.held.Add(margin, bound + of_obstacle);
         }
         return true;
       }
-      if (!clearances.BodyClears(body, posture, t, demanded, &scratch)) {
-        proof.violated = clearances.OfBody(body, posture, t, 1.0, &scratch);
+      if (!clearances.BodyClears(body, posture, t, apart, &scratch)) {
+        proof.violated = OfBody(interval.mid, posture, body, 1.0);
       }
       return false;
     });
@@ -125,7 +149,22 @@ class ClearanceMargin final : public MarginStatements {
   }
 
  private:
+  // How far a body may be from its place [m].
+  double WayOf(const Instant& at, size_t body) const {
+    return levers_.WayOf(body, at.limits().tube);
+  }
+  // The margin of a body; `cap` where nothing is nearer.
+  Margin OfBody(const Instant& at, const Posture& posture, size_t body, double cap,
+                double half_width = 0.0) const {
+    const double way = WayOf(at, body);
+    Margin margin = place_.clearances.OfBody(body, posture, at.t(), cap + way, &at.scratch().bodies,
+                                             half_width);
+    margin.value -= way;
+    return margin;
+  }
+
   const MarginPlace& place_;
+  TubeLevers levers_;
 };
 
 }  // namespace

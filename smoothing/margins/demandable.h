@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "smoothing/margins/margin.h"
@@ -11,7 +12,12 @@ namespace halfstep {
 /// masses or limits are not known; "" where they let it be.
 std::string WhyNotDemandable(MarginFamily family, const RobotModel& robot);
 
-/// The same limits, with nothing demanded where the robot's files do not let it be.
+/// What a tube adds for a robot to what is demanded of each family [its unit]; 0 of those that are
+/// certified of the planned motion alone (FamilyTraits::in_tube).
+std::array<double, kNumMarginFamilies> RaisedBy(const Tube& tube, const RobotModel& robot);
+
+/// The same limits, with nothing demanded where the robot's files do not let it be, and with what
+/// their tube adds for this robot.
 MarginLimits Demandable(MarginLimits limits, const RobotModel& robot);
 
 }  // namespace halfstep

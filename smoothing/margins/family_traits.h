@@ -6,6 +6,7 @@
 
 #include "planner/scene/scene.h"
 #include "smoothing/margins/margin.h"
+#include "smoothing/margins/tube_shift.h"
 #include "wpg/robot/not_covered.h"
 #include "wpg/robot/robot_model.h"
 
@@ -60,6 +61,10 @@ inline std::optional<NotCovered> AssumesNothing(const RobotModel&, const Scene&)
   return std::nullopt;
 }
 
+/// By how much the margins of a family may be less anywhere in a tube than on the plan [its unit].
+/// Source: smoothing/README.md, "Tubes".
+using TubeShare = double (*)(const TubeShift& shift);
+
 /// What a certificate does not cover of a family.
 struct FamilyCoverage {
   DemandFault why_not_demandable = nullptr;  ///< of a robot
@@ -107,7 +112,8 @@ struct FamilyTraits {
   /// Whether some robots or configs do not have it (MarginStatements::present): then a config that
   /// is written back has its key only where something else than `demanded` is demanded.
   bool may_be_absent = false;
-  Untold untold = kNeedsLegs;  ///< where it is −∞
+  Untold untold = kNeedsLegs;   ///< where it is −∞
+  TubeShare in_tube = nullptr;  ///< null: what is certified of it is about the planned motion alone
 };
 
 /// Whether traits leave out nothing that has no default.

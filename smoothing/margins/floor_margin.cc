@@ -25,6 +25,7 @@ class FloorMargin final : public SwingFootFamily<FloorMargin> {
       .raised = false,
       .cost = MarginCost::kWalk,
       .row = MarginFamily::kFloor,
+      .in_tube = [](const TubeShift& shift) { return shift.sole; },
   };
 
   explicit FloorMargin(const MarginPlace& place)

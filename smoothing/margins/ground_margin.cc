@@ -29,6 +29,7 @@ class GroundMargin final : public WholeFamily {
       .raised = false,
       .cost = MarginCost::kJointSpeeds,
       .row = MarginFamily::kFloor,
+      .in_tube = [](const TubeShift& shift) { return shift.off_feet; },
   };
 
   explicit GroundMargin(const MarginPlace& place) : WholeFamily(kTraits), place_(place) {}

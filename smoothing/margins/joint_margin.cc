@@ -28,6 +28,7 @@ class JointMargin final : public JointFamily {
       .raised = true,
       .cost = MarginCost::kPosture,
       .row = MarginFamily::kJoint,
+      .in_tube = [](const TubeShift& shift) { return shift.tube.joint; },
   };
 
   explicit JointMargin(const MarginPlace& place) : JointFamily(kTraits, place) {}

@@ -27,6 +27,7 @@ class JointSpeedMargin final : public JointSizeFamily<JointSpeedMargin> {
       .raised = true,
       .cost = MarginCost::kJointSpeeds,
       .row = MarginFamily::kJointSpeed,
+      .in_tube = [](const TubeShift& shift) { return shift.tube.joint_speed; },
   };
 
   explicit JointSpeedMargin(const MarginPlace& place) : JointSizeFamily(kTraits, place) {}

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "smoothing/margins/tube.h"
 #include "smoothing/walk/superposed_walk.h"
 #include "wpg/enumerators.h"
 #include "wpg/nth.h"
@@ -90,14 +91,18 @@ struct MarginLimits {
   /// Demanded margin δ by family, in its unit: feasible means margin ≥ δ. kNotDemanded where the
   /// family may be left out (FamilyTraits::may_be_none).
   std::array<double, kNumMarginFamilies> demanded = DefaultDemands();
+  Tube tube = {};  ///< within which motions are to keep what is demanded
+  /// What the tube adds to `demanded` for a robot (RaisedBy), set by Demandable; 0 without a tube.
+  std::array<double, kNumMarginFamilies> raised = {};
   /// A clearance beyond this reads as this [m], or as twice the largest demanded clearance where
   /// that is more.
   double clearance_cap = 0.3;
   OwnMargins own = {};  ///< more margins to be kept, of one's own; not null
 
-  /// What is demanded of a family [its unit]; kNotDemanded: nothing.
-  double demanded_of(MarginFamily f) const { return Nth(demanded, f); }
-  /// The same, to be set.
+  /// What is demanded of the planned motion of a family [its unit], the tube's share included;
+  /// kNotDemanded: nothing.
+  double demanded_of(MarginFamily f) const { return Nth(demanded, f) + Nth(raised, f); }
+  /// The same without the tube's share, to be set.
   double& demanded_of(MarginFamily f) { return Nth(demanded, f); }
   /// (value − demanded) / Scale: negative when infeasible; comparable between families. +∞ where
   /// nothing is demanded.

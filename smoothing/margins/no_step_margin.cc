@@ -27,6 +27,7 @@ class NoStepMargin final : public WholeFamily {
       .raised = false,
       .cost = MarginCost::kWalk,
       .row = MarginFamily::kFloor,
+      .in_tube = [](const TubeShift& shift) { return shift.sole; },
   };
 
   explicit NoStepMargin(const MarginPlace& place) : WholeFamily(kTraits), place_(place) {}

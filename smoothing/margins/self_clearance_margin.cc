@@ -2,13 +2,15 @@
 #include <cmath>
 
 #include "smoothing/margins/family_class.h"
+#include "smoothing/margins/tube_levers.h"
 #include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
 
-// Distance between two of the robot's own bodies [m], at most the clearance cap; −∞ when a leg
-// does not reach. Proved pair by pair. Subject and other: indices of RobotModel::bodies.
+// Distance between two of the robot's own bodies, less how much nearer they may be in a tube [m],
+// at most the clearance cap; −∞ when a leg does not reach. Proved pair by pair. Subject and other:
+// indices of RobotModel::bodies.
 class SelfClearanceMargin final : public MarginStatements {
  public:
   static constexpr FamilyTraits kTraits = {
@@ -28,10 +30,12 @@ class SelfClearanceMargin final : public MarginStatements {
       .raised = true,
       .cost = MarginCost::kPairs,
       .row = MarginFamily::kSelfClearance,
+      // What a tube takes is taken from the margin of each pair.
+      .in_tube = [](const TubeShift&) { return 0.0; },
   };
 
   explicit SelfClearanceMargin(const MarginPlace& place)
-      : MarginStatements(kTraits), place_(place) {}
+      : MarginStatements(kTraits), place_(place), levers_(place.robot) {}
 
   int count() const override { return static_cast<int>(place_.clearances.num_pairs()); }
 
@@ -50,12 +54,31 @@ class SelfClearanceMargin final : public MarginStatements {
   Margin Least(Instant* at, double enough) const override {
     if (!at->reachable()) return Of(-kUnlimited, -1);
     const double cap = std::min(enough, ClearanceCap(at->limits()));
-    return place_.clearances.NearestPair(at->posture(), cap, &at->scratch().bodies);
+    BodyClearances::Scratch& scratch = at->scratch().bodies;
+    if (at->limits().tube == Tube{}) {
+      return place_.clearances.NearestPair(at->posture(), cap, &scratch);
+    }
+    place_.clearances.Place(at->posture(), &scratch);
+    Margin nearest = Of(cap, -1);
+    for (size_t p = 0; p < place_.clearances.num_pairs(); ++p) {
+      Lower(OfPair(*at, at->posture(), p, nearest.value), &nearest);
+    }
+    return nearest;
   }
 
   std::optional<Margin> FirstBelow(Instant* at, double demanded) const override {
     if (!at->reachable()) return Of(-kUnlimited, -1);
-    return place_.clearances.FirstPairBelow(at->posture(), demanded, &at->scratch().bodies);
+    if (at->limits().tube == Tube{}) {
+      return place_.clearances.FirstPairBelow(at->posture(), demanded, &at->scratch().bodies);
+    }
+    place_.clearances.Place(at->posture(), &at->scratch().bodies);
+    for (size_t p = 0; p < place_.clearances.num_pairs(); ++p) {
+      if (!place_.clearances.PairClears(p, at->posture(), demanded + NearerBy(*at, p),
+                                        &at->scratch().bodies)) {
+        return OfPair(*at, at->posture(), p, demanded + 1.0);
+      }
+    }
+    return std::nullopt;
   }
 
   void AddBelow(Instant* at, double demanded, std::vector<Margin>* below) const override {
@@ -64,8 +87,8 @@ class SelfClearanceMargin final : public MarginStatements {
     BodyClearances::Scratch& scratch = at->scratch().bodies;
     clearances.Place(at->posture(), &scratch);
     for (size_t p = 0; p < clearances.num_pairs(); ++p) {
-      if (clearances.PairClears(p, at->posture(), demanded, &scratch)) continue;
-      below->push_back(clearances.OfPair(p, at->posture(), demanded, &scratch));
+      if (clearances.PairClears(p, at->posture(), demanded + NearerBy(*at, p), &scratch)) continue;
+      below->push_back(OfPair(*at, at->posture(), p, demanded));
     }
   }
 
@@ -76,12 +99,13 @@ class SelfClearanceMargin final : public MarginStatements {
     BodyClearances::Scratch& scratch = at->scratch().bodies;
     clearances.Place(posture, &scratch);
     for (size_t p = 0; p < clearances.num_pairs(); ++p) {
-      if (clearances.PairClears(p, posture, rows->cutoff_margin(), &scratch)) continue;
+      const double nearer = NearerBy(*at, p);
+      if (clearances.PairClears(p, posture, rows->cutoff_margin() + nearer, &scratch)) continue;
       const Separation gap = clearances.SeparationOf(p, posture, &scratch);
       const auto [a, b] = place_.robot.self_pairs[p];
       const RobotBody& first = Nth(place_.robot.bodies, a);
       const RobotBody& second = Nth(place_.robot.bodies, b);
-      rows->AddOfPosture(at, gap.distance, [&](PostureGradient* of) {
+      rows->AddOfPosture(at, gap.distance - nearer, [&](PostureGradient* of) {
         of->AddPoint(first, posture, gap.point_a_W, gap.normal_W);
         of->AddPoint(second, posture, gap.point_b_W, -gap.normal_W);
       });
@@ -111,15 +135,16 @@ class SelfClearanceMargin final : public MarginStatements {
       const double bound = std::min(motion.displacement[a] + motion.displacement[b],
                                     motion.displacement_B[a] + motion.displacement_B[b]) +
                            rounding;
-      if (clearances.PairClears(pair, motion.posture, demanded + bound, &scratch)) {
+      const double apart = demanded + NearerBy(interval.mid, pair);
+      if (clearances.PairClears(pair, motion.posture, apart + bound, &scratch)) {
         if (interval.with_margins) {
           const double enough = std::max(cap, demanded + bound + rounding);
-          proof.held.Add(clearances.OfPair(pair, motion.posture, enough, &scratch), bound);
+          proof.held.Add(OfPair(interval.mid, motion.posture, pair, enough), bound);
         }
         return true;
       }
-      if (!clearances.PairClears(pair, motion.posture, demanded, &scratch)) {
-        proof.violated = clearances.OfPair(pair, motion.posture, 1.0, &scratch);
+      if (!clearances.PairClears(pair, motion.posture, apart, &scratch)) {
+        proof.violated = OfPair(interval.mid, motion.posture, pair, 1.0);
       }
       return false;
     });
@@ -127,7 +152,20 @@ class SelfClearanceMargin final : public MarginStatements {
   }
 
  private:
+  // How much nearer the bodies of a pair may be [m].
+  double NearerBy(const Instant& at, size_t pair) const {
+    return levers_.NearerBy(pair, at.limits().tube);
+  }
+  // The margin of a pair that is placed; `cap` where they are farther from each other.
+  Margin OfPair(const Instant& at, const Posture& posture, size_t pair, double cap) const {
+    const double nearer = NearerBy(at, pair);
+    Margin margin = place_.clearances.OfPair(pair, posture, cap + nearer, &at.scratch().bodies);
+    margin.value -= nearer;
+    return margin;
+  }
+
   const MarginPlace& place_;
+  TubeLevers levers_;
 };
 
 }  // namespace

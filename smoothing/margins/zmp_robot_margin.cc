@@ -44,6 +44,7 @@ class ZmpRobotMargin final : public SupportFamily {
       .row = MarginFamily::kZmpRobot,
       .may_be_none = true,
       .untold = kNeedsGround,
+      .in_tube = [](const TubeShift& shift) { return shift.tube.zmp + shift.sole; },
   };
 
   explicit ZmpRobotMargin(const MarginPlace&) : SupportFamily(kTraits) {}

@@ -143,6 +143,8 @@ smoothing:
             joint_speed_rad_s: 0.005, foot_speed_m_s: 0.006, foot_yaw_rate_rad_s: 0.007,
             clearance_m: 0.008, self_clearance_m: 0.009, ground_m: 0.011, no_step_m: 0.012,
             zmp_robot_m: 0.013, torque_n_m: 14, friction: 0.015, joint_acceleration_rad_s2: 1.6}
+  tube: {foot_m: 0.001, foot_deg: 2, waist_m: 0.003, waist_deg: 4, joint_rad: 0.005,
+         joint_speed_rad_s: 0.006, zmp_m: 0.007}
 output: {directory: ../out, period_s: 0.02}
 seed: 42
 )";
@@ -177,6 +179,13 @@ TEST(ExperimentConfig, EveryKeyReachesItsField) {
   EXPECT_EQ(s.limits.foot_speed, std::nullopt);
   EXPECT_EQ(s.limits.foot_yaw_rate, 1.5);
   EXPECT_EQ(s.limits.joint_speed_scale, 0.75);
+  EXPECT_EQ(s.limits.tube, (Tube{.foot = 0.001,
+                                 .foot_turn = 2 * kDegree,
+                                 .waist = 0.003,
+                                 .waist_turn = 4 * kDegree,
+                                 .joint = 0.005,
+                                 .joint_speed = 0.006,
+                                 .zmp = 0.007}));
   EXPECT_EQ(s.limits.demanded_of(MarginFamily::kFloor), 0.001);
   EXPECT_EQ(s.limits.demanded_of(MarginFamily::kZmp), 0.002);
   EXPECT_EQ(s.limits.demanded_of(MarginFamily::kReach), 0.003);

@@ -34,6 +34,7 @@ ALLOWED_IN_VERIFY = {
     "planner/scene/scene.h": "the reader of scenes",
     "smoothing/methods/dichotomy.h": "options of the dichotomy, as a config has them",
     "smoothing/methods/solver_method_options.h": "those of solvers",
+    "smoothing/margins/tube.h": "the distances of a tube, as a config has them",
     "wpg/check.h": "broken preconditions",
     "wpg/geometry/convex_body.h": "the shapes of robots and scenes",
     "wpg/geometry/foothold.h": "places of feet, in configs",
