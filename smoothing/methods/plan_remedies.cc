@@ -15,9 +15,9 @@ constexpr size_t kMostFootsteps = 3;
 // Tried in this order, the smallest changes first.
 constexpr double kHigher[] = {0.01, 0.02,  0.03, 0.04,  0.06, 0.08,  0.1,  -0.01,
                               0.13, -0.02, 0.16, -0.04, 0.2,  -0.06, 0.25, -0.1};  // [m]
-constexpr double kLonger[] = {1.1, 1.2, 1.35, 1.5, 1.75, 2.0, 2.5, 3.0, 4.0};
+constexpr double kTimesLonger[] = {1.1, 1.2, 1.35, 1.5, 1.75, 2.0, 2.5, 3.0, 4.0};
 constexpr double kHigherAndLonger[] = {0.01, 0.02, 0.03, 0.04, 0.06, 0.08, 0.1, 0.13};  // [m]
-constexpr double kLongerAndHigher[] = {1.1, 1.25, 1.5, 2.0};
+constexpr double kTimesLongerAndHigher[] = {1.1, 1.25, 1.5, 2.0};
 constexpr double kFarther[] = {0.01,  -0.01, 0.02,  -0.02, 0.03, -0.03,
                                -0.04, 0.04,  -0.06, 0.06,  0.08, -0.08};  // [m]
 
@@ -78,7 +78,7 @@ class RemedySearch {
     for (const double by : kHigher) {
       heights.push_back({.step = planned.step, .via_height = Higher(planned, by)});
     }
-    for (const double by : kLonger) {
+    for (const double by : kTimesLonger) {
       durations.push_back({.step = planned.step, .duration = Longer(planned, by)});
     }
     Keep(heights, 1, &found);
@@ -89,7 +89,7 @@ class RemedySearch {
   // A higher via point needs more time.
   static std::vector<PlanChange> HeightsAndDurations(const PlanChange& planned) {
     std::vector<PlanChange> changes;
-    for (const double longer : kLongerAndHigher) {
+    for (const double longer : kTimesLongerAndHigher) {
       for (const double higher : kHigherAndLonger) {
         changes.push_back({.step = planned.step,
                            .duration = Longer(planned, longer),
