@@ -49,8 +49,9 @@ DcmController::DcmController(const RobotModel& robot, const DcmOptions& options)
     : robot_(robot),
       options_(options),
       omega_(std::sqrt(kGravity / robot.com_height)),
-      foot_stiffness_(
-          std::min(options.stiffness, kStiffFoot * robot.mass * kGravity * robot.com_height)) {}
+      foot_stiffness_(std::isfinite(options.stiffness)
+                          ? options.stiffness
+                          : kStiffFoot * robot.mass * kGravity * robot.com_height) {}
 
 std::unique_ptr<TrackingController> DcmController::Clone() const {
   return std::make_unique<DcmController>(*this);

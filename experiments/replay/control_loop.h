@@ -14,9 +14,10 @@ namespace halfstep::replay {
 /// commanded. A copy goes on independently.
 class ControlLoop {
  public:
+  /// Clones the controller; what that borrows must outlive the loop.
   ControlLoop(std::shared_ptr<const PlannedStates> plan,
               const control::TrackingController& controller, const control::Sensors& sensors);
-  ControlLoop(const ControlLoop& other);
+  ControlLoop(const ControlLoop& other);  ///< in the same state, independent from then on
   ControlLoop& operator=(const ControlLoop&) = delete;
 
   /// Where the servos shall be at the end of the robot's next time step, which ends at t [s]. To be

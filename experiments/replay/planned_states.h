@@ -13,9 +13,8 @@ namespace halfstep::replay {
 /// differences of neighbours, linear between rows; the first and the last row are at rest.
 class PlannedStates {
  public:
-  /// Precondition: masses are known. Torques and the whole robot's ZMP are 0 and the walk's own in
-  /// rows where a leg does not reach or is stretched. Borrows `robot`, and `motion` if not moved
-  /// in.
+  /// Precondition: masses are known. In rows where a leg does not reach or is stretched, torques
+  /// and velocities are 0 and the ZMP is that of the walk's model. Nothing is borrowed.
   PlannedStates(const RobotModel& robot, const ReferenceMotion& motion);
 
   double begin() const { return motion_.rows().front().t; }  ///< of the first row [s]

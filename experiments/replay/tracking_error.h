@@ -22,7 +22,7 @@ TrackingError TrackingErrorOf(const Simulation& robot, const ReferenceMotion& mo
 
 /// The errors of many instants, each number by itself.
 struct TrackingErrors {
-  TrackingErrors() = default;
+  TrackingErrors() = default;  ///< of no instant
   /// Without instants all are 0.
   explicit TrackingErrors(const std::vector<TrackingError>& errors);
 
