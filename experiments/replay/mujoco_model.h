@@ -38,11 +38,11 @@ struct ModelOptions {
       false;  ///< where they are at t = 0; else at the origin until they are moved
   /// A passive bush between the last joint of each leg and all that it moves: hinges about the
   /// sole's y and x through the frame of that joint. None: the ankle is rigid.
-  std::optional<JointSpring> ankle;
+  std::optional<JointSpring> ankle = {};
   /// Whether servos give no more than LegJoint::max_torque.
   bool torque_limits = false;
   Eigen::Vector2d com_shift{0, 0};  ///< of all links that no leg moves, along x and y of B [m]
-  SimulatedFloor floor;             ///< what the soles stand on
+  SimulatedFloor floor = {};        ///< what the soles stand on
 };
 
 /// The name of a link's body. MuJoCo calls its own root "world" and refuses a second body of that
