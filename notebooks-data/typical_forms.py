@@ -4,7 +4,7 @@
 Medians of the parameters of the steps of each class, over the walks by halfstep/sqp in folders of
 `halfstep run`. The classes are those of FormOfStep (smoothing/methods/typical_start.cc), but that
 steps go `over` something which are not in a class of their own and rise to more than half of what
-is planned. The slowest form, `high`, is no class: it is the level one at a T of 1 s and a height of
+is planned. The slowest form, `high`, is no class: it is the level one at a T of 1.3 s and a height of
 0.4. TypicalForms() has these numbers, which a test compares.
 """
 import csv
