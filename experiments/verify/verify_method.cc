@@ -259,8 +259,8 @@ VerifiedStatement VerifyMethod(const VerifyOptions& options, const RunManifest& 
   SmoothingConfig demanded = config.smoothing;
   demanded.limits = WithTube(config.smoothing, robot);
   CheckTube(certificate, config.smoothing, robot, findings);
-  CheckAgainstConfig(certificate, WithAccelerations(of_files, demanded.assumed_acceleration),
-                     demanded, findings);
+  const RobotModel by_config = WithAccelerations(of_files, demanded.assumed_acceleration);
+  CheckAgainstConfig(certificate, by_config, demanded, findings);
   CheckDemandOfStopBranches(config.smoothing.stop_branches, manifest.acceptance, findings);
   const auto iterations =
       !files.Has("iterates.csv")
@@ -273,7 +273,7 @@ VerifiedStatement VerifyMethod(const VerifyOptions& options, const RunManifest& 
   const std::vector<ClaimRow> claimed = ReadCertificateCsv(files.PathOf("certificate.csv"), claims);
   const std::vector<PlayedRow> rows =
       ReadTrajectory(files.PathOf("trajectory.csv"), trajectory, robot);
-  CheckWorstMargin(summary, folder, rows, robot, certificate, demanded, findings);
+  CheckWorstMargin(summary, folder, rows, robot, certificate, demanded.limits, findings);
   CheckArithmetic(certificate, claimed, robot, rows.empty() ? 0 : rows.back().t, findings);
   const std::vector<NotCovered> not_covered = FindNotCovered(certificate, robot, scene);
   CheckNotCovered("certificate.json", certificate.not_covered, not_covered, findings);
