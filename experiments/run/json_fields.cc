@@ -20,8 +20,8 @@ class JsonWriter : public Fields {
  public:
   const ordered_json& object() const { return object_; }
 
-  void Number(const char* key, double* value, const NumberSpec&) override {
-    object_[key] = NumberOf(key, *value);
+  void Number(const char* key, double* value, const NumberSpec& spec) override {
+    if (*value != spec.left_out) object_[key] = NumberOf(key, *value);
   }
   void OptionalNumber(const char* key, std::optional<double>* value,
                       const NumberSpec& spec) override {

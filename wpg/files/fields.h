@@ -20,9 +20,9 @@ struct NumberSpec {
   double min = -std::numeric_limits<double>::infinity();  ///< smallest valid value
   double max = std::numeric_limits<double>::infinity();   ///< largest valid value
   bool required = false;                                  ///< whether the key may not be left out
-  /// Of an optional number that few files need: writing leaves the key out at this value.
+  /// Of a number that few files need: writing leaves the key out at this value.
   std::optional<double> left_out = std::nullopt;
-  /// The same where it has none.
+  /// The same of an optional number that has none.
   bool none_left_out = false;
 };
 /// The valid values of a text or a truth value.

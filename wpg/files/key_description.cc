@@ -20,6 +20,13 @@ std::string DefaultText(const std::function<void(Fields&)>& declare) {
   return line.substr(begin, line.size() - begin - 1);
 }
 
+// The default is told, too, where files leave it out.
+NumberSpec Told(NumberSpec spec) {
+  spec.left_out.reset();
+  spec.none_left_out = false;
+  return spec;
+}
+
 class Describer : public Fields {
  public:
   explicit Describer(std::string path) : path_(std::move(path)) {}
@@ -27,15 +34,12 @@ class Describer : public Fields {
   std::vector<KeyDescription> Take() { return std::move(keys_); }
 
   void Number(const char* key, double* value, const NumberSpec& spec) override {
-    AddValue(Kind::kNumber, key, spec, [&](Fields& f) { f.Number(key, value, spec); });
+    AddValue(Kind::kNumber, key, spec, [&](Fields& f) { f.Number(key, value, Told(spec)); });
   }
   void OptionalNumber(const char* key, std::optional<double>* value,
                       const NumberSpec& spec) override {
-    NumberSpec written = spec;
-    written.left_out.reset();  // the default is told, too, where files leave it out
-    written.none_left_out = false;
     AddValue(Kind::kOptionalNumber, key, spec,
-             [&](Fields& f) { f.OptionalNumber(key, value, written); });
+             [&](Fields& f) { f.OptionalNumber(key, value, Told(spec)); });
   }
   void Integer(const char* key, int* value, const NumberSpec& spec) override {
     KeyDescription& added =

@@ -56,7 +56,8 @@ class YamlWriter : public Fields {
 
   const std::string& text() const { return text_; }
 
-  void Number(const char* key, double* value, const NumberSpec&) override {
+  void Number(const char* key, double* value, const NumberSpec& spec) override {
+    if (*value == spec.left_out) return;
     Line(key, TextOfNumber(key, *value));
   }
   void OptionalNumber(const char* key, std::optional<double>* value,
