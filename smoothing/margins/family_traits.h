@@ -61,8 +61,9 @@ inline std::optional<NotCovered> AssumesNothing(const RobotModel&, const Scene&)
   return std::nullopt;
 }
 
-/// By how much the margins of a family may be less anywhere in a tube than on the plan [its unit].
-/// Source: smoothing/README.md, "Tubes".
+/// By how much the margins of a family may be less anywhere in a tube than on the plan [its unit];
+/// 0 where they have lost it already, each its own share (TubeLevers). Source: smoothing/README.md,
+/// "Tubes".
 using TubeShare = double (*)(const TubeShift& shift);
 
 /// What a certificate does not cover of a family.
