@@ -165,7 +165,7 @@ TEST_F(TrackingControllerTest, AControllerOfOnesOwnGetsWhatIsMeasuredAsLateAsTol
   SKIP_WITHOUT_SIMULATION();
   const Simulation robot = Robot(30000.0, 1000.0);
   const ReplayResult open = Play(robot, motion_, {});
-  const ReplayResult own = Play(robot, motion_, By(PlanItself(), {.delay = 0.012}));
+  const ReplayResult own = Play(robot, motion_, By(PlanItself(), {.delay = 0.012, .seed = {}}));
   EXPECT_NEAR(PlanItself::latest_age_, 0.012 + kControlPeriod, 1e-9);
   EXPECT_NEAR(own.largest_tilt, open.largest_tilt, 1e-6);
   EXPECT_NEAR(own.zmp_rms, open.zmp_rms, 1e-4);
@@ -213,7 +213,10 @@ TEST(ReplayCommandControllers, AProgramAddsItsOwnAndMistakesAreTold) {
                            .out = run,
                            .quiet = true}),
             kSuccess);
-  ReplayCommand command{.run = run, .method = "raw", .quiet = true};
+  ReplayCommand command;
+  command.run = run;
+  command.method = "raw";
+  command.quiet = true;
   command.controllers.Add("mine",
                           [](const ControlledRobot&) { return std::make_unique<PlanItself>(); });
   EXPECT_THROW(command.controllers.Add("mine", {}), std::logic_error);

@@ -23,7 +23,7 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr double kDegree = M_PI / 180;
+constexpr double kOneDegree = M_PI / 180;
 
 #define SKIP_WITHOUT_SIMULATION() \
   if (!WhyNoSimulation().empty()) GTEST_SKIP() << WhyNoSimulation()
@@ -144,7 +144,7 @@ TEST(RobotPhysics, ASimilarRobotDoesTheSame) {
   }
   const ReplayResult expected = Played(large, Walk());
   const ReplayResult result = Played(small, Scaled(Walk(), kScale));
-  EXPECT_GT(expected.largest_tilt, 0.5 * kDegree);
+  EXPECT_GT(expected.largest_tilt, 0.5 * kOneDegree);
   EXPECT_NEAR(result.largest_tilt / expected.largest_tilt, 1.0, 0.02);
   EXPECT_NEAR(result.zmp_rms / expected.zmp_rms, kScale, 0.02 * kScale);
   EXPECT_NEAR(result.peak / expected.peak, 1.0, 0.02);
@@ -246,7 +246,7 @@ TEST(ReplayWorlds, ASlopeLeansTheRobotAndASteepOneFellsIt) {
   SKIP_WITHOUT_SIMULATION();
   ReplaySetup slope = Hrp2();
   slope.relief = ParseRelief("", "slope=3");
-  EXPECT_NEAR(Played(slope, Standing()).rows.back().tilt, 3 * kDegree, 0.5 * kDegree);
+  EXPECT_NEAR(Played(slope, Standing()).rows.back().tilt, 3 * kOneDegree, 0.5 * kOneDegree);
   slope.relief = ParseRelief("", "slope=15");
   EXPECT_FALSE(Played(slope, Walk()).stayed_up);
 }
@@ -264,7 +264,7 @@ TEST(ReplayWorlds, PlatesTiltTheRobot) {
   EXPECT_GT(floor.plates[0].X_FP.translation().z(), 0.0);
   EXPECT_LE(floor.plates[0].X_FP.translation().z(), 0.02);
   const double tilt = Play(plates.Robot(floor), motion, plates.play).largest_tilt;
-  EXPECT_GT(tilt, Played(Hrp2(), rows).largest_tilt + 0.2 * kDegree);
+  EXPECT_GT(tilt, Played(Hrp2(), rows).largest_tilt + 0.2 * kOneDegree);
 }
 
 TEST(ReplayWorlds, AFloorThatIsNoneIsRefused) {

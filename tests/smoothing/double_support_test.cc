@@ -14,7 +14,7 @@
 namespace halfstep {
 namespace {
 
-constexpr MarginFamily kFamily = MarginFamily::kDoubleSupport;
+constexpr MarginFamily kSupport = MarginFamily::kDoubleSupport;
 
 double ShiftOf(const HomotopyParameters& p, int i) {
   return p.zmp_shifts[static_cast<size_t>(i)] * p.durations[static_cast<size_t>(i)];
@@ -33,7 +33,7 @@ double ShiftAt(const SuperposedWalk& walk, double t) {
 }
 
 TEST(DoubleSupportMargin, IsTheShortestShiftThatGoesOn) {
-  const MarginEvaluator evaluator(Hrp2(), {}, Only(kFamily, 0.0));
+  const MarginEvaluator evaluator(Hrp2(), {}, Only(kSupport, 0.0));
   MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
   WalkDraw draw(1001);
   int watched = 0;
@@ -43,7 +43,7 @@ TEST(DoubleSupportMargin, IsTheShortestShiftThatGoesOn) {
       const double t = draw.Uniform(0, walk.duration());
       if (NearKnot(walk, t, 1e-9)) continue;
       const double truth = ShiftAt(walk, t);
-      const Margin margin = Of(evaluator.At(walk, walk.Locate(t), &scratch), kFamily);
+      const Margin margin = Of(evaluator.At(walk, walk.Locate(t), &scratch), kSupport);
       if (std::isinf(truth)) {
         EXPECT_EQ(margin.value, kUnlimited);
         EXPECT_EQ(evaluator.Subject(margin), "no half-step");
@@ -92,7 +92,7 @@ TEST(DoubleSupportMargin, BoundsHowLongBothFeetStand) {
 
 TEST(DoubleSupportMargin, RowsHaveTheSlopesOfDifferences) {
   constexpr double kStep = 1e-6;
-  const MarginEvaluator evaluator(Hrp2(), {}, Only(kFamily, 0.1));
+  const MarginEvaluator evaluator(Hrp2(), {}, Only(kSupport, 0.1));
   SlackEvaluator slacks(evaluator, 100.0);
   WalkDraw draw(1003);
   int rows = 0, along = 0, caught = 0;
@@ -106,16 +106,16 @@ TEST(DoubleSupportMargin, RowsHaveTheSlopesOfDifferences) {
     const auto slack = [&](const HomotopyParameters& p) {
       InstantSlacks there;
       slacks.At(SuperposedWalk(sequence, p), at, {}, false, &there);
-      const auto row = std::ranges::find(there.rows, kFamily, &SlackRow::family);
+      const auto row = std::ranges::find(there.rows, kSupport, &SlackRow::family);
       return row == there.rows.end() ? std::nan("") : row->slack;
     };
     InstantSlacks here;
     slacks.At(walk, at, {}, true, &here);
-    const auto row = std::ranges::find(here.rows, kFamily, &SlackRow::family);
+    const auto row = std::ranges::find(here.rows, kSupport, &SlackRow::family);
     ASSERT_NE(row, here.rows.end());
-    if (std::ranges::count(here.rows, kFamily, &SlackRow::family) > 1) continue;  // two shifts
+    if (std::ranges::count(here.rows, kSupport, &SlackRow::family) > 1) continue;  // two shifts
     ++rows;
-    EXPECT_NEAR(row->slack, (ShiftOf(parameters, k) - 0.1) / Scale(kFamily), 1e-9);
+    EXPECT_NEAR(row->slack, (ShiftOf(parameters, k) - 0.1) / Scale(kSupport), 1e-9);
     for (size_t p = 0; p < here.parameters.size(); ++p) {
       HomotopyParameters more = parameters, less = parameters;
       here.parameters[p].in(more) += kStep;
@@ -127,7 +127,7 @@ TEST(DoubleSupportMargin, RowsHaveTheSlopesOfDifferences) {
       along += difference != 0.0;
       // The control: T and the shift in each other's place.
       if (here.parameters[p] != HomotopyParameter{ParameterFamily::kDuration, k}) continue;
-      const double broken = parameters.durations[static_cast<size_t>(k)] / Scale(kFamily);
+      const double broken = parameters.durations[static_cast<size_t>(k)] / Scale(kSupport);
       caught += std::abs(broken - difference) > 1e-6 * (1 + std::abs(difference));
     }
   }
@@ -152,14 +152,14 @@ TEST(DoubleSupportMargin, NoHalfStepIsLeftOut) {
       const SuperposedWalk walk(sequence, parameters);
       const double shift = ShiftOf(parameters, k);
       Certificate certificate;
-      const Feasibility kept = Certify(Hrp2(), {}, Only(kFamily, shift), walk, &certificate);
+      const Feasibility kept = Certify(Hrp2(), {}, Only(kSupport, shift), walk, &certificate);
       const double others = std::ranges::min(parameters.durations) * 0.2;
       if (others <= shift) continue;
       EXPECT_EQ(kept.verdict, Verdict::kFeasible);
       const Feasibility missed =
-          Certify(Hrp2(), {}, Only(kFamily, shift + 1e-9), walk, &certificate);
+          Certify(Hrp2(), {}, Only(kSupport, shift + 1e-9), walk, &certificate);
       ASSERT_EQ(missed.verdict, Verdict::kViolated);
-      EXPECT_EQ(missed.witness.family, kFamily);
+      EXPECT_EQ(missed.witness.family, kSupport);
       EXPECT_EQ(missed.witness.subject, k);
     }
   }
@@ -174,7 +174,7 @@ TEST(DoubleSupportMargin, TheDemandedLengthIsEnough) {
       const double T = hundredths / 100.0;
       parameters.durations.assign(4, T);
       parameters.zmp_shifts.assign(4, demanded / T);
-      const MarginEvaluator evaluator(Hrp2(), {}, Only(kFamily, demanded));
+      const MarginEvaluator evaluator(Hrp2(), {}, Only(kSupport, demanded));
       MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
       const LocalTime middle{1, 0.5 * T};
       const SuperposedWalk walk(sequence, parameters);
@@ -185,15 +185,15 @@ TEST(DoubleSupportMargin, TheDemandedLengthIsEnough) {
 
 TEST(DoubleSupportMargin, IsThereOnlyWhereItIsDemanded) {
   const MarginEvaluator none(Hrp2(), {}, {});
-  EXPECT_THAT(none.families(), testing::Not(testing::Contains(kFamily)));
-  const MarginEvaluator asked = none.WithLimits(Only(kFamily, 0.1));
-  EXPECT_THAT(asked.families(), testing::Contains(kFamily));
-  EXPECT_THAT(none.families(), testing::Not(testing::Contains(kFamily)));
+  EXPECT_THAT(none.families(), testing::Not(testing::Contains(kSupport)));
+  const MarginEvaluator asked = none.WithLimits(Only(kSupport, 0.1));
+  EXPECT_THAT(asked.families(), testing::Contains(kSupport));
+  EXPECT_THAT(none.families(), testing::Not(testing::Contains(kSupport)));
   MarginEvaluator::Scratch scratch = none.MakeScratch();
   const HalfStepSequence sequence = TwoSteps(Hrp2());
   const SuperposedWalk walk(sequence, PlannedMotion(sequence));
-  EXPECT_EQ(Of(none.At(walk, {0, 0.6}, &scratch), kFamily).value, kUnlimited);
-  EXPECT_NEAR(Of(asked.At(walk, {0, 0.6}, &scratch), kFamily).value, 0.06, 1e-11);
+  EXPECT_EQ(Of(none.At(walk, {0, 0.6}, &scratch), kSupport).value, kUnlimited);
+  EXPECT_NEAR(Of(asked.At(walk, {0, 0.6}, &scratch), kSupport).value, 0.06, 1e-11);
 }
 
 }  // namespace

@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/wpg/hrp2.h"
+
 namespace halfstep {
 namespace {
-
-RobotModel Hrp2() { return LoadRobot(HALFSTEP_SOURCE_DIR "/wpg/robots/hrp2.yaml"); }
 
 TEST(Rounding, OfPlacesGoesByTheWayFromTheOrigin) {
   const Rounding rounding(Hrp2());

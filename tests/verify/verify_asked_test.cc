@@ -26,12 +26,12 @@ TamperedWalk AskedWalk() {
 }
 
 // certificate.csv
-enum : size_t { kFamilyCell = 2, kSubjectCell = 4, kMarginCell = 5, kBoundCell = 6 };
+enum : size_t { kFamilyAt = 2, kSubjectAt = 4, kMarginAt = 5, kBoundAt = 6 };
 
 // The first row of a family that has a margin.
 std::vector<std::string>& RowOf(Table& table, const std::string& family) {
   return *std::ranges::find_if(table, [&](const std::vector<std::string>& row) {
-    return row[kFamilyCell] == family && row[kMarginCell] != "inf";
+    return row[kFamilyAt] == family && row[kMarginAt] != "inf";
   });
 }
 
@@ -65,7 +65,7 @@ std::function<void(TamperedRun&)> Document(const std::function<void(Json&)>& edi
 }
 // A margin that is a little larger.
 void Raise(std::vector<std::string>& row) {
-  row[kMarginCell] = ShortestText(std::stod(row[kMarginCell]) + 1e-4);
+  row[kMarginAt] = ShortestText(std::stod(row[kMarginAt]) + 1e-4);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -75,21 +75,21 @@ INSTANTIATE_TEST_SUITE_P(
         AskedForgery{"OfAnotherHalfStep",
                      Row("double_support",
                          [](auto& row) {
-                           row[kSubjectCell] =
-                               row[kSubjectCell] == "half-step 1" ? "half-step 2" : "half-step 1";
+                           row[kSubjectAt] =
+                               row[kSubjectAt] == "half-step 1" ? "half-step 2" : "half-step 1";
                          }),
                      "changes no support there"},
         AskedForgery{"OfNoHalfStep",
-                     Row("double_support", [](auto& row) { row[kSubjectCell] = "half-step 9"; }),
+                     Row("double_support", [](auto& row) { row[kSubjectAt] = "half-step 9"; }),
                      "the walk has no half-step 9"},
         AskedForgery{"OfNothing",
-                     Row("double_support", [](auto& row) { row[kSubjectCell] = "half-step"; }),
+                     Row("double_support", [](auto& row) { row[kSubjectAt] = "half-step"; }),
                      "nothing is called 'half-step'"},
         AskedForgery{"ShiftUnwatched",
                      Row("double_support",
                          [](auto& row) {
-                           row[kSubjectCell] = "no half-step";
-                           row[kMarginCell] = "inf";
+                           row[kSubjectAt] = "no half-step";
+                           row[kMarginAt] = "inf";
                          }),
                      "changes support in 0.1 s"},
         AskedForgery{"ShiftDemandRaised",
@@ -103,7 +103,7 @@ INSTANTIATE_TEST_SUITE_P(
                        });
                        run.EditCertificate([](Table& t) {
                          std::erase_if(t, [](const auto& row) {
-                           return row[kFamilyCell] == "double_support";
+                           return row[kFamilyAt] == "double_support";
                          });
                        });
                      },
@@ -120,7 +120,7 @@ INSTANTIATE_TEST_SUITE_P(
                      [](TamperedRun& run) {
                        run.EditCertificate([](Table& t) {
                          for (auto& row : t) {
-                           if (row[kFamilyCell] == "landing_speed") row[kBoundCell] = "0";
+                           if (row[kFamilyAt] == "landing_speed") row[kBoundAt] = "0";
                          }
                        });
                      },
