@@ -15,19 +15,23 @@ ROOT = pathlib.Path(__file__).resolve().parents[1]
 MARK = "<!-- gains -->\n"
 SCENARIOS = ["fig3_two_half_steps", "fig4_raw_sequence", "fig5_box", "bar_5cm", "bar_8cm",
              "bar_10cm"]
-FORMS = {"heights": "false", "durations": "false", "all_families": "false"}
+LIMIT = {"smoothing.profile": "limit"}
+FORMS = LIMIT | {f"smoothing.optimizer.{key}": "false"
+                 for key in ("heights", "durations", "all_families")}
 # Of each run: what it sets, and its methods with the column that each fills.
 RUNS = [
-    ({}, {"dichotomy": "dichotomy", "halfstep/sqp": "`halfstep/sqp`, every family (the default)"}),
+    ({}, {"dichotomy": "dichotomy", "halfstep/sqp": "`halfstep/sqp`, **the default**"}),
     # The grid is scanned to its end.
-    ({"effort": "60"}, {"dichotomy/uniform": "best uniform T and η, then dichotomy"}),
-    (FORMS, {"halfstep/sqp": "`halfstep/sqp`, Δ alone"}),
-    (FORMS | {"heights": "true", "durations": "true"},
-     {"halfstep/sqp": "`halfstep/sqp`, Δ, η, T", "halfstep/barrier": "`halfstep/barrier`, Δ, η, T"}),
+    (LIMIT | {"smoothing.optimizer.effort": "60"},
+     {"dichotomy/uniform": "`limit`: best uniform T and η, then dichotomy"}),
+    (FORMS, {"halfstep/sqp": "`limit`: `halfstep/sqp`, Δ alone"}),
+    (FORMS | {"smoothing.optimizer.heights": "true", "smoothing.optimizer.durations": "true"},
+     {"halfstep/sqp": "`limit`: `halfstep/sqp`, Δ, η, T"}),
+    (LIMIT, {"halfstep/sqp": "`limit`: `halfstep/sqp`, every family"}),
 ]
-COLUMNS = ["dichotomy", "best uniform T and η, then dichotomy", "`halfstep/sqp`, Δ alone",
-           "`halfstep/sqp`, Δ, η, T", "`halfstep/barrier`, Δ, η, T",
-           "`halfstep/sqp`, every family (the default)"]
+COLUMNS = ["dichotomy", "`halfstep/sqp`, **the default**",
+           "`limit`: best uniform T and η, then dichotomy", "`limit`: `halfstep/sqp`, Δ alone",
+           "`limit`: `halfstep/sqp`, Δ, η, T", "`limit`: `halfstep/sqp`, every family"]
 
 
 def row_of(halfstep, scenario, folder):
@@ -39,7 +43,7 @@ def row_of(halfstep, scenario, folder):
                    "--out", str(out), "--set", "output.period_s=0.1",
                    "--set", f"smoothing.methods=[{', '.join(methods)}]"]
         for key, value in settings.items():
-            command += ["--set", f"smoothing.optimizer.{key}={value}"]
+            command += ["--set", f"{key}={value}"]
         subprocess.run(command, check=True)
         with open(out / "summary.csv", encoding="utf-8") as file:
             for row in csv.DictReader(file):

@@ -25,7 +25,9 @@ int main(int argc, char** argv) {
   if (argc > 1) return RunExperiment(argc, argv, {methods});  // configs may name mine/descent now
   const ExperimentConfig config =
       LoadConfig((DataFolder() / "configs/bar_8cm.yaml").string(),
-                 {{"smoothing.optimizer.durations", "true"}, {"smoothing.optimizer.rounds", "2"}});
+                 {{"smoothing.profile", "limit"},  // where also a simple solver gains
+                  {"smoothing.optimizer.durations", "true"},
+                  {"smoothing.optimizer.rounds", "2"}});
   const WalkProblem problem = ProblemOf(Prepare(config));
   for (const char* method : {"dichotomy", "mine/descent"}) {
     SmoothingMonitor monitor;

@@ -15,7 +15,8 @@ def descend(problem, x):
 
 
 hs.register_solver("mine/descent", descend)  # now a method beside halfstep/sqp, in YAML, too
-experiment = hs.Experiment("bar_8cm")
+# Under the profile `limit` also a simple solver gains.
+experiment = hs.Experiment(hs.load_config("bar_8cm", smoothing__profile="limit"))
 print(f"dichotomy    {experiment.smooth('dichotomy').duration:.3f} s")
 result = experiment.smooth("mine/descent", heights=True, durations=True, rounds=2)
 print(f"mine/descent {result.duration:.3f} s, {result.certify().status}")

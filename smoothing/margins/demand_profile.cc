@@ -20,7 +20,7 @@ MarginLimits LimitsOf(DemandProfile profile) {
     case DemandProfile::kWalkable:
       limits.demanded_of(MarginFamily::kZmpRobot) = 0.03;
       limits.demanded_of(MarginFamily::kFriction) = 0.3;
-      limits.demanded_of(MarginFamily::kDoubleSupport) = 0.1;
+      limits.demanded_of(MarginFamily::kDoubleSupport) = 0.08;
       break;
     case DemandProfile::kLimit:
       break;

@@ -10,10 +10,14 @@ namespace {
 // length counts, whatever its product is rounded to.
 constexpr double kTolerance = 1e-12;
 
+// Rows are there for so long before t1 and after t2, as a fraction of T: programs watch instants
+// just outside of the shift, which move with it, so that no search leaves the row by a shorter one.
+constexpr double kBeside = 1e-8;
+
 // Calls visit(i) for each half-step i whose ZMP goes from foot to foot at the instant, t1 and t2
-// included.
+// included, and `beside` of T before and after.
 template <typename Visit>
-void ForEachShift(const Instant& at, const Visit& visit) {
+void ForEachShift(const Instant& at, double beside, const Visit& visit) {
   const SuperposedWalk& walk = at.walk();
   const LocalTime& named = at.at();
   const auto local = [&](int i) {
@@ -22,7 +26,9 @@ void ForEachShift(const Instant& at, const Visit& visit) {
   int i = named.half_step;
   while (i + 1 < walk.num_half_steps() && local(i + 1) > 0.0) ++i;
   for (; i >= 0 && local(i) < walk.tracks(i).duration(); --i) {
-    if (local(i) >= walk.tracks(i).t1() && local(i) <= walk.tracks(i).t2()) visit(i);
+    const double wider = beside * walk.tracks(i).duration();
+    if (local(i) < walk.tracks(i).t1() - wider || local(i) > walk.tracks(i).t2() + wider) continue;
+    visit(i);
   }
 }
 
@@ -73,12 +79,12 @@ class DoubleSupportMargin final : public WholeFamily {
 
   Margin Least(Instant* at, double) const override {
     Margin least = Of(kUnlimited, -1);
-    ForEachShift(*at, [&](int i) { Lower(Of(ShiftOf(*at, i), i), &least); });
+    ForEachShift(*at, 0.0, [&](int i) { Lower(Of(ShiftOf(*at, i), i), &least); });
     return least;
   }
 
   void AddRows(Instant* at, SlackSink* rows) const override {
-    ForEachShift(*at, [&](int i) {
+    ForEachShift(*at, kBeside, [&](int i) {
       rows->AddAlong(ShiftOf(*at, i), [&](size_t p) {
         const HomotopyParameter& along = rows->sensitivities[p].parameter;
         const HalfStep& half_step = at->walk().half_step(i);

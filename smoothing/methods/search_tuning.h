@@ -36,7 +36,7 @@ struct SearchTuning {
   int poor_starts = 3;  ///< in a row that gain next to nothing end the search
   /// Half-steps above which a search begins in windows of so many, by so many: rounds over the
   /// whole would gain late.
-  int long_walk = 100, window = 12, step = 8;
+  int long_walk = 60, window = 12, step = 8;
   int window_rounds = 6;  ///< in each of them, before rounds over the whole
   /// Part of the effort that is kept for the dichotomy in the end.
   double last_part = 0.1;

@@ -69,7 +69,7 @@ class WithSciPy(unittest.TestCase):
         except ImportError:
             raise unittest.SkipTest("no SciPy") from None
         cls.optimize = optimize
-        cls.experiment = hs.Experiment("bar_8cm")
+        cls.experiment = hs.Experiment(hs.load_config("bar_8cm", smoothing__profile="limit"))
 
     def minimize(self, program, x, method, room, **options):
         def jacobian(x):

@@ -39,7 +39,8 @@ writeFileSync(join(place, "small.yaml"), `name: small
 robot: hrp2
 scene: bar.yaml
 goal: {x_m: 0.35, y_m: 0, radius_m: 0.15}
-half_step: {duration_s: 1.5, zmp_shift_s: 0.075}${across ? whole : few}
+half_step: {duration_s: 1.5, zmp_shift_s: 0.075}
+smoothing: {margins: {double_support_s: 0.075}}${across ? whole : few}
 live: {smooth_ahead: 4, tolerance_s: 0.1, longest_s: 600, sensing: {rests_after_s: 0.5}}
 `);
 

@@ -17,7 +17,7 @@ half_step: {duration_s: 1.5, zmp_shift_s: 0.075}
 step_set: {x_min_m: 0, x_max_m: 0.35, y_min_m: -0.26, y_max_m: -0.21, spacing_m: 0.05, yaws_rad: [0]}
 swept_volumes: {cell_m: 0.02, displacement_m: 0.01, cache: ${JSON.stringify(cache)}}
 planner: {unimproved_nodes: 100, max_nodes: 2000}
-smoothing: {methods: [dichotomy]}
+smoothing: {methods: [dichotomy], margins: {double_support_s: 0.075}}
 `;
 
 // Whether the volume of a half-step contains a point of W.

@@ -202,8 +202,8 @@ TEST(StopBranches, AreCheckedWhenTheConfigDemandsThem) {
   for (const char* demanded : {"all", "none"}) {
     SCOPED_TRACE(demanded);
     TamperedRun run(
-        {.overrides = {"smoothing.methods=[halfstep/sqp]", "smoothing.optimizer.heights=true",
-                       "smoothing.optimizer.durations=true",
+        {.overrides = {"smoothing.methods=[halfstep/sqp]", "smoothing.profile=limit",
+                       "smoothing.optimizer.heights=true", "smoothing.optimizer.durations=true",
                        std::string("smoothing.stop_branches=") + demanded}});
     const auto verify = [&] { return VerifiedHere({.run = run.run().string()}); };
     Outcome outcome = verify();
