@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""How often walks stand in replay: survival.py HALFSTEP RUN… > survival.csv
+"""How often walks stand in replay: survival.py HALFSTEP METHOD RUN… > survival.csv
 
-Plays the walks of folders of `halfstep run` with eight seeds each on the robots of ROBOTS, open
-loop and controlled. A row says in how many of the seeds a walk stands; the medians over the seeds
+Plays the walks of a method in folders of `halfstep run` with eight seeds each on the robots of
+ROBOTS, open loop and controlled. A row says in how many of the seeds a walk stands; the medians over the seeds
 of its largest tilt, of the share of time in which the pressure is at an edge of the soles, and of
 the peak force; and the largest time in flight.
 """
@@ -27,33 +27,31 @@ COLUMNS = ["walk", "method", "duration_s", "robot", "stands", "of", "tilt_deg", 
            "peak_weights", "flight_s"]
 
 
-def played(halfstep, run, robot):
-    """What `halfstep replay` says of each walk of the run; falls are no failure here."""
-    command = [halfstep, "replay", run, "--seeds", str(SEEDS), "--json"] + ROBOTS[robot]
+def played(halfstep, method, run, robot):
+    """What `halfstep replay` says of the run's walk; falls are no failure here."""
+    command = [halfstep, "replay", run, "--method", method, "--seeds", str(SEEDS), "--json"]
+    command += ROBOTS[robot]
     out = subprocess.run(command, stdout=subprocess.PIPE, check=False)
     if out.returncode not in (0, 1):
         sys.exit(f"{' '.join(command)}: exit status {out.returncode}")
-    return json.loads(out.stdout)["methods"]
+    return json.loads(out.stdout)["methods"][0]
 
 
 def main():
-    if len(sys.argv) < 3:
+    if len(sys.argv) < 4:
         sys.exit(__doc__)
     table = csv.writer(sys.stdout, lineterminator="\n")
     table.writerow(COLUMNS)
-    for run in sys.argv[2:]:
+    for run in sys.argv[3:]:
         for robot in ROBOTS:
-            for walk in played(sys.argv[1], run, robot):
-                if walk["method"] == "raw":
-                    continue
-                median, largest = walk["median"], walk["largest"]
-                table.writerow([
-                    pathlib.Path(run).name, walk["method"], f"{walk['duration_s']:.3f}", robot,
-                    walk["stands"], walk["of"],
-                    f"{math.degrees(median['largest_tilt_rad']):.2f}",
-                    f"{median['edge_share']:.3f}", f"{median['peak_weights']:.2f}",
-                    f"{largest['flight_s']:.3f}"])
-                sys.stdout.flush()
+            walk = played(sys.argv[1], sys.argv[2], run, robot)
+            median, largest = walk["median"], walk["largest"]
+            table.writerow([
+                pathlib.Path(run).name, walk["method"], f"{walk['duration_s']:.3f}", robot,
+                walk["stands"], walk["of"], f"{math.degrees(median['largest_tilt_rad']):.2f}",
+                f"{median['edge_share']:.3f}", f"{median['peak_weights']:.2f}",
+                f"{largest['flight_s']:.3f}"])
+            sys.stdout.flush()
 
 
 if __name__ == "__main__":

@@ -4,7 +4,7 @@ from scipy.optimize import Bounds, NonlinearConstraint, minimize
 
 import halfstep as hs
 
-experiment = hs.Experiment("bar_8cm")
+experiment = hs.Experiment(hs.load_config("bar_8cm", smoothing__profile="limit"))
 program = hs.OverlapProgram(experiment, heights=True)
 rows = NonlinearConstraint(program.constraints, program.constraint_lower, np.inf,
                            jac=lambda x: program.jacobian(x).toarray())

@@ -8,6 +8,7 @@ namespace halfstep::replay {
 /// Numbers drawn by a seed, the same on every machine.
 class SeedDraws {
  public:
+  /// Those of a seed ≥ 1.
   explicit SeedDraws(int seed) : random_(static_cast<std::uint64_t>(seed)) {}
 
   /// Evenly between both.

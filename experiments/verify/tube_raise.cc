@@ -92,7 +92,7 @@ class OnLine {
 
 // How much nearer two bodies may come, by what is between them or as each by itself.
 double Nearer(const OnLine& a, const OnLine& b, const Tube& tube) {
-  const auto [first, last] = std::minmax(a.gap(), b.gap());
+  const auto [first, last] = std::minmax({a.gap(), b.gap()});
   double between = 0.0;
   for (int i = first + 1; i <= last; ++i) between += tube.joint * std::min(a.far(i), b.far(i));
   return std::min(between, a.Way(tube) + b.Way(tube));

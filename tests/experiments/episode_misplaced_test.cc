@@ -37,7 +37,7 @@ TEST(EpisodeMisplaced, CommandsOfExperimentsNameTheOneOfEpisodes) {
   for (const std::string command : {"run", "plan"}) {
     const Outcome outcome = Halfstep(place.path(), {command, config});
     EXPECT_EQ(outcome.status, kBadInput);
-    EXPECT_THAT(outcome.err, HasSubstr("live_bar.yaml:8:1: live: this is the config of an episode "
+    EXPECT_THAT(outcome.err, HasSubstr("live_bar.yaml:9:1: live: this is the config of an episode "
                                        "(valid: `halfstep live` takes it)\n"));
     EXPECT_FALSE(fs::exists(place / "runs"));
   }

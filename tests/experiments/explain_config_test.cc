@@ -68,7 +68,9 @@ TEST(ExplainConfig, DefaultsAndKeysAreThoseOfAResolvedConfig) {
                 " start: {left: {x_m: 0, y_m: 0.1}, right: {x_m: 0, y_m: -0.1}},\n"
                 " smoothing: {fixed: [{parameter: height_scale}]}}"),
       {});
-  config.has_goal = config.smoothing.has_given = true;  // so that their keys are written
+  // So that their keys are written.
+  config.has_goal = config.smoothing.has_given = config.has_replay = true;
+  config.smoothing.has_tube = true;
   // So that these keys are, which are left out at their defaults.
   const std::set<std::string> left_out = {
       "smoothing.margins.joint_acceleration_rad_s2", "smoothing.margins.double_support_s",

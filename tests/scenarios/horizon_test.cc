@@ -116,9 +116,9 @@ TEST_F(WindowTest, WhatTheProblemFixesStaysFixed) {
   }
 }
 
-MethodOptions Along(bool durations) {
+MethodOptions Along(bool durations, int passes = 2) {
   MethodOptions options;
-  options.Edit(HorizonGroup()) = {.window = 4, .step = 2, .passes = 2};
+  options.Edit(HorizonGroup()) = {.window = 4, .step = 2, .passes = passes};
   OptimizerOptions& optimizer = options.Edit(OptimizerGroup()).options;
   optimizer.program.parameters = {.heights = durations, .durations = durations};
   optimizer.tolerance = 0.01;
@@ -160,7 +160,7 @@ TEST(Horizon, OneBadHalfStepCostsItsWindowOnly) {
   const Experiment e = LoadExperiment("bar_8cm");
   const CertifiedFeasibility test({e.robot, e.scene, e.config.smoothing.limits}, {});
   const Stubborn stubborn(test, e.sequence.half_steps[7]);
-  const SmoothingResult result = Smoothed(Horizon, ProblemOf(e.sequence, stubborn), Along(true));
+  const SmoothingResult result = Smoothed(Horizon, ProblemOf(e.sequence, stubborn), Along(true, 3));
   const std::vector<double>& T = result.parameters.durations;
   const std::vector<double> planned = PlannedMotion(e.sequence).durations;
   EXPECT_EQ(T[7], planned[7]);

@@ -151,7 +151,7 @@ TEST_F(TypicalStartTest, WhatIsFixedStays) {
   EXPECT_EQ(start.height_scales[1], 0.7);
   EXPECT_EQ(start.overlaps[5], 0.1);
   EXPECT_LT(start.durations[2], 1.9);
-  EXPECT_LT(start.height_scales[0], 0.7);
+  EXPECT_LT(start.height_scales[0], 0.75);  // of the form over obstacles
 }
 
 TEST_F(TypicalStartTest, FamiliesThatAreNotMovedStayPlanned) {

@@ -174,7 +174,9 @@ void EveryKey(StudyList* list) {
     };
     std::string misspelt = line;
     misspelt.insert(colon, "x");
-    list->push_back({"config.yaml: misspelt", path, replace(misspelt)});
+    // Weights of costs that a program added have names of its own, which verify says.
+    const bool own = path.starts_with("smoothing.optimizer.weights.");
+    list->push_back({"config.yaml: misspelt", path, replace(misspelt), own ? kHow : ""});
     const std::string value = colon + 2 <= line.size() ? line.substr(colon + 2) : "";
     if (value.empty() || value.front() == '[') continue;
     std::string harmless;

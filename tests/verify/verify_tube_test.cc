@@ -22,7 +22,8 @@ using Json = nlohmann::ordered_json;
 
 TamperedWalk WalkInATube() {
   return {.config = "fig3_two_half_steps",
-          .overrides = {"smoothing.tube={foot_m: 0.005, foot_deg: 0.5, waist_m: 0.005, waist_deg: "
+          .overrides = {"smoothing.profile=limit",
+                        "smoothing.tube={foot_m: 0.005, foot_deg: 0.5, waist_m: 0.005, waist_deg: "
                         "0.5, joint_rad: 0.005, joint_speed_rad_s: 0.1, zmp_m: 0.01}"}};
 }
 
