@@ -27,7 +27,7 @@ bool Shifts(const DescribedWalk& walk, int half_step, double t, double inside) {
 
 std::string FaultOfShift(const DescribedWalk& walk, const ClaimRow& row, int half_step) {
   const double middle = 0.5 * (row.begin + row.end), inside = Tolerances(walk.robot()).inside;
-  if (half_step >= walk.num_half_steps()) return "the walk has no half-step " + row.subject;
+  if (half_step >= walk.num_half_steps()) return "the walk has no " + row.subject;
   double least = std::numeric_limits<double>::infinity();
   if (half_step >= 0) {
     least = Duration(walk, half_step);
