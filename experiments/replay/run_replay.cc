@@ -28,6 +28,13 @@ WalkReplayer ReplayerOf(const ExperimentConfig& config) {
   if (const std::string why = WhyNoSimulation(); !why.empty()) {
     throw InputError({"replay: " + why + " (valid: a config without `replay`)"});
   }
+  if (config.replay.controller != "none") {  // before anything is searched
+    const RobotModel robot = LoadRobot(RobotPath(config).string());
+    if (!robot.masses.known()) {
+      throw InputError(
+          {"replay.controller: of " + robot.name + ", " + robot.masses.fault + " (valid: none)"});
+    }
+  }
   return PlayWalk;
 }
 

@@ -9,7 +9,7 @@
 namespace halfstep {
 
 /// What steps of fast walks look like: medians over the steps of one class in walks that searches
-/// found, of HRP-2 under the limits of its robot file and the default margins. Arrays: the step's
+/// found, of HRP-2 under the profile `walkable`, double support of 0.1 s. Arrays: the step's
 /// up half-step, then its down half-step. Source: smoothing/README.md, "Typical forms";
 /// notebooks-data/drawn_walks/typical_forms.csv, which `make_data.sh` measures again.
 struct TypicalForm {

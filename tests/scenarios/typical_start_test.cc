@@ -151,7 +151,10 @@ TEST_F(TypicalStartTest, WhatIsFixedStays) {
   EXPECT_EQ(start.height_scales[1], 0.7);
   EXPECT_EQ(start.overlaps[5], 0.1);
   EXPECT_LT(start.durations[2], 1.9);
-  EXPECT_LT(start.height_scales[0], 0.75);  // of the form over obstacles
+  // That of a form beside the fixed one, here the one over obstacles.
+  const auto over = std::ranges::find(TypicalForms(), "over", &TypicalForm::name);
+  EXPECT_EQ(start.height_scales[0], over->height_scale);
+  EXPECT_NE(start.height_scales[0], start.height_scales[1]);
 }
 
 TEST_F(TypicalStartTest, FamiliesThatAreNotMovedStayPlanned) {

@@ -9,7 +9,7 @@
 
 #include "experiments/commands/commands.h"
 #include "experiments/verify/joint_accelerations.h"
-#include "tests/verify/verify_mutation.h"
+#include "tests/verify/certificate_forgery.h"
 #include "wpg/files/number_text.h"
 
 namespace halfstep {
@@ -41,23 +41,9 @@ std::vector<std::string>& LoosestOf(Table& table) {
   return *std::ranges::max_element(table, {}, bound);
 }
 
-struct AccelerationForgery {
-  std::string name;
-  std::function<void(TamperedRun&)> forge;
-  std::string reason;  // part of what must be said
-};
-void PrintTo(const AccelerationForgery& forgery, std::ostream* out) { *out << forgery.name; }
+class ForgedAccelerations : public testing::TestWithParam<CertificateForgery> {};
 
-class ForgedAccelerations : public testing::TestWithParam<AccelerationForgery> {};
-
-TEST_P(ForgedAccelerations, AreRefused) {
-  TamperedRun run(LimitedWalk());
-  GetParam().forge(run);
-  run.Rehash();
-  const Outcome outcome = run.Verify();
-  EXPECT_EQ(outcome.status, kNotVerified) << outcome.out << outcome.err;
-  EXPECT_THAT(outcome.out + outcome.err, HasSubstr(GetParam().reason));
-}
+TEST_P(ForgedAccelerations, AreRefused) { ExpectRefused(LimitedWalk(), GetParam()); }
 
 std::function<void(TamperedRun&)> AccelerationRows(std::function<void(Table&)> edit) {
   return [edit](TamperedRun& run) { run.EditCertificate(edit); };
@@ -69,70 +55,70 @@ std::function<void(TamperedRun&)> AccelerationJson(std::function<void(Json&)> ed
 INSTANTIATE_TEST_SUITE_P(
     Verify, ForgedAccelerations,
     testing::Values(
-        AccelerationForgery{"Unwatched",
-                            AccelerationRows([](Table& t) { LoosestOf(t)[kMarginCell] = "inf"; }),
-                            "the robot has limits"},
-        AccelerationForgery{"MarginRaised", AccelerationRows([](Table& t) {
-                              std::string& margin = LoosestOf(t)[kMarginCell];
-                              margin = ShortestText(std::stod(margin) + 1e-4);
-                            }),
-                            "by the walk"},
-        AccelerationForgery{"OfAnotherJoint", AccelerationRows([](Table& t) {
-                              std::string& joint = LoosestOf(t)[kSubjectCell];
-                              joint = joint == "LLEG_JOINT0" ? "LLEG_JOINT1" : "LLEG_JOINT0";
-                            }),
-                            "by the walk"},
-        AccelerationForgery{"OfNoJoint", AccelerationRows([](Table& t) {
-                              LoosestOf(t)[kSubjectCell] = "LLEG_LINK0";
-                            }),
-                            "nothing is called 'LLEG_LINK0'"},
-        AccelerationForgery{"BoundsLowered", AccelerationRows([](Table& t) {
-                              for (auto& row : t) {
-                                if (row[kFamilyCell] == kAccelerations) row[kBoundCell] = "0";
-                              }
-                            }),
-                            "beyond"},
-        AccelerationForgery{"DemandRaised",
-                            AccelerationJson([](Json& j) { j["demanded"][kAccelerations] = 11.9; }),
-                            "joint accelerations"},
-        AccelerationForgery{"DemandLeftOut", AccelerationJson([](Json& j) {
-                              j["demanded"][kAccelerations] = nullptr;
-                            }),
-                            "joint_acceleration: the certificate demands -inf, config.yaml 0"},
-        AccelerationForgery{"FamilyLeftOut",
-                            [](TamperedRun& run) {
-                              run.EditJson([](Json& j) {
-                                j["demanded"].erase(kAccelerations);
-                                j["statements"].erase(kAccelerations);
-                              });
-                              run.EditCertificate([](Table& t) {
-                                std::erase_if(t, [](const auto& row) {
-                                  return row[kFamilyCell] == kAccelerations;
-                                });
-                              });
-                            },
-                            "joint_acceleration: certificate.json has 0 statements, the robot 12"},
-        AccelerationForgery{"StatementOfARobotWithoutLimits", AccelerationJson([](Json& j) {
-                              std::string text = j["statement"];
-                              const std::string words =
-                                  "joint accelerations where the robot file limits them, ";
-                              j["statement"] = text.erase(text.find(words), words.size());
-                            }),
-                            "the certificate's statement is not the one that is verified"},
-        AccelerationForgery{"ColumnRaised",
-                            [](TamperedRun& run) {
-                              run.EditTrajectory([](Table& t) {
-                                std::string& margin = t[t.size() / 2].back();
-                                margin = ShortestText(std::stod(margin) + 1e-3);
-                              });
-                            },
-                            "joint_acceleration_margin_rad_s2 is"},
-        AccelerationForgery{"LimitLowered",
-                            [](TamperedRun& run) {
-                              TamperedRun::Replace(run.urdf().parent_path() / "hrp2.yaml",
-                                                   "RLEG_JOINT3: 12.0", "RLEG_JOINT3: 2.0");
-                            },
-                            "joint accelerations"}),
+        CertificateForgery{"Unwatched",
+                           AccelerationRows([](Table& t) { LoosestOf(t)[kMarginCell] = "inf"; }),
+                           "the robot has limits"},
+        CertificateForgery{"MarginRaised", AccelerationRows([](Table& t) {
+                             std::string& margin = LoosestOf(t)[kMarginCell];
+                             margin = ShortestText(std::stod(margin) + 1e-4);
+                           }),
+                           "by the walk"},
+        CertificateForgery{"OfAnotherJoint", AccelerationRows([](Table& t) {
+                             std::string& joint = LoosestOf(t)[kSubjectCell];
+                             joint = joint == "LLEG_JOINT0" ? "LLEG_JOINT1" : "LLEG_JOINT0";
+                           }),
+                           "by the walk"},
+        CertificateForgery{"OfNoJoint", AccelerationRows([](Table& t) {
+                             LoosestOf(t)[kSubjectCell] = "LLEG_LINK0";
+                           }),
+                           "nothing is called 'LLEG_LINK0'"},
+        CertificateForgery{"BoundsLowered", AccelerationRows([](Table& t) {
+                             for (auto& row : t) {
+                               if (row[kFamilyCell] == kAccelerations) row[kBoundCell] = "0";
+                             }
+                           }),
+                           "beyond"},
+        CertificateForgery{"DemandRaised",
+                           AccelerationJson([](Json& j) { j["demanded"][kAccelerations] = 11.9; }),
+                           "joint accelerations"},
+        CertificateForgery{"DemandLeftOut", AccelerationJson([](Json& j) {
+                             j["demanded"][kAccelerations] = nullptr;
+                           }),
+                           "joint_acceleration: the certificate demands -inf, config.yaml 0"},
+        CertificateForgery{"FamilyLeftOut",
+                           [](TamperedRun& run) {
+                             run.EditJson([](Json& j) {
+                               j["demanded"].erase(kAccelerations);
+                               j["statements"].erase(kAccelerations);
+                             });
+                             run.EditCertificate([](Table& t) {
+                               std::erase_if(t, [](const auto& row) {
+                                 return row[kFamilyCell] == kAccelerations;
+                               });
+                             });
+                           },
+                           "joint_acceleration: certificate.json has 0 statements, the robot 12"},
+        CertificateForgery{"StatementOfARobotWithoutLimits", AccelerationJson([](Json& j) {
+                             std::string text = j["statement"];
+                             const std::string words =
+                                 "joint accelerations where the robot file limits them, ";
+                             j["statement"] = text.erase(text.find(words), words.size());
+                           }),
+                           "the certificate's statement is not the one that is verified"},
+        CertificateForgery{"ColumnRaised",
+                           [](TamperedRun& run) {
+                             run.EditTrajectory([](Table& t) {
+                               std::string& margin = t[t.size() / 2].back();
+                               margin = ShortestText(std::stod(margin) + 1e-3);
+                             });
+                           },
+                           "joint_acceleration_margin_rad_s2 is"},
+        CertificateForgery{"LimitLowered",
+                           [](TamperedRun& run) {
+                             TamperedRun::Replace(run.urdf().parent_path() / "hrp2.yaml",
+                                                  "RLEG_JOINT3: 12.0", "RLEG_JOINT3: 2.0");
+                           },
+                           "joint accelerations"}),
     [](const auto& info) { return info.param.name; });
 
 TEST(VerifyAccelerations, WhatIsUntouchedIsVerifiedAndSaysWhatWasLookedAt) {

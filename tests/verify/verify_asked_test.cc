@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "experiments/commands/commands.h"
-#include "tests/verify/verify_mutation.h"
+#include "tests/verify/certificate_forgery.h"
 #include "wpg/files/number_text.h"
 
 namespace halfstep {
@@ -35,23 +35,9 @@ std::vector<std::string>& RowOf(Table& table, const std::string& family) {
   });
 }
 
-struct AskedForgery {
-  std::string name;
-  std::function<void(TamperedRun&)> forge;
-  std::string reason;  // part of what must be said
-};
-void PrintTo(const AskedForgery& forgery, std::ostream* out) { *out << forgery.name; }
+class ForgedRequests : public testing::TestWithParam<CertificateForgery> {};
 
-class ForgedRequests : public testing::TestWithParam<AskedForgery> {};
-
-TEST_P(ForgedRequests, AreRefused) {
-  TamperedRun run(AskedWalk());
-  GetParam().forge(run);
-  run.Rehash();
-  const Outcome outcome = run.Verify();
-  EXPECT_EQ(outcome.status, kNotVerified) << outcome.out << outcome.err;
-  EXPECT_THAT(outcome.out + outcome.err, HasSubstr(GetParam().reason));
-}
+TEST_P(ForgedRequests, AreRefused) { ExpectRefused(AskedWalk(), GetParam()); }
 
 // Changes cells of the first row of a family.
 std::function<void(TamperedRun&)> Row(const std::string& family,
@@ -71,75 +57,78 @@ void Raise(std::vector<std::string>& row) {
 INSTANTIATE_TEST_SUITE_P(
     Verify, ForgedRequests,
     testing::Values(
-        AskedForgery{"ShiftRaised", Row("double_support", Raise), "by the walk"},
-        AskedForgery{"OfAnotherHalfStep",
-                     Row("double_support",
-                         [](auto& row) {
-                           row[kSubjectAt] =
-                               row[kSubjectAt] == "half-step 1" ? "half-step 2" : "half-step 1";
-                         }),
-                     "changes no support there"},
-        AskedForgery{"OfNoHalfStep",
-                     Row("double_support", [](auto& row) { row[kSubjectAt] = "half-step 9"; }),
-                     "the walk has no half-step 9"},
-        AskedForgery{"OfNothing",
-                     Row("double_support", [](auto& row) { row[kSubjectAt] = "half-step"; }),
-                     "nothing is called 'half-step'"},
-        AskedForgery{"ShiftUnwatched",
-                     Row("double_support",
-                         [](auto& row) {
-                           row[kSubjectAt] = "no half-step";
-                           row[kMarginAt] = "inf";
-                         }),
-                     "changes support in 0.1 s"},
-        AskedForgery{"ShiftDemandRaised",
-                     Document([](Json& j) { j["demanded"]["double_support"] = 0.2; }),
-                     "ZMPs from foot to foot"},
-        AskedForgery{"ShiftsLeftOut",
-                     [](TamperedRun& run) {
-                       run.EditJson([](Json& j) {
-                         j["demanded"].erase("double_support");
-                         j["statements"].erase("double_support");
-                       });
-                       run.EditCertificate([](Table& t) {
-                         std::erase_if(
-                             t, [](const auto& row) { return row[kFamilyAt] == "double_support"; });
-                       });
-                     },
-                     "double_support: the certificate demands -inf, config.yaml 0.1"},
-        AskedForgery{"NotInTheStatement", Document([](Json& j) {
-                       std::string text = j["statement"];
-                       const std::string words =
-                           ", how long the ZMP of each half-step goes from foot to foot";
-                       j["statement"] = text.erase(text.find(words), words.size());
-                     }),
-                     "the certificate's statement is not the one that is verified"},
-        AskedForgery{"LandingRaised", Row("landing_speed", Raise), "by the walk"},
-        AskedForgery{"LandingBoundLowered",
-                     [](TamperedRun& run) {
-                       run.EditCertificate([](Table& t) {
-                         for (auto& row : t) {
-                           if (row[kFamilyAt] == "landing_speed") row[kBoundAt] = "0";
-                         }
-                       });
-                     },
-                     "beyond"},
-        AskedForgery{"LandingLimitLooser",
-                     Document([](Json& j) { j["limits"]["landing_speed_m_s"] = 2.0; }),
-                     "landing_speed_m_s: the certificate's limit is looser"},
-        AskedForgery{"LandingLimitLower",
-                     Document([](Json& j) { j["limits"]["landing_speed_m_s"] = 0.02; }),
-                     "landing speed"},
-        AskedForgery{"AccelerationLooser",
-                     Document([](Json& j) { j["limits"]["joint_acceleration_rad_s2"] = 100.0; }),
-                     "joint_acceleration_rad_s2: the certificate's limit is looser"},
-        AskedForgery{"AssumptionUntold", Document([](Json& j) {
-                       auto& list = j["not_covered"];
-                       for (size_t i = 0; i < list.size(); ++i) {
-                         if (list[i]["subject"] == "joint_acceleration") list.erase(i);
-                       }
-                     }),
-                     "limits of joint accelerations are assumed (12 rad/s²)"}),
+        CertificateForgery{"ShiftRaised", Row("double_support", Raise), "by the walk"},
+        CertificateForgery{"OfAnotherHalfStep",
+                           Row("double_support",
+                               [](auto& row) {
+                                 row[kSubjectAt] = row[kSubjectAt] == "half-step 1" ? "half-step 2"
+                                                                                    : "half-step 1";
+                               }),
+                           "changes no support there"},
+        CertificateForgery{
+            "OfNoHalfStep",
+            Row("double_support", [](auto& row) { row[kSubjectAt] = "half-step 9"; }),
+            "the walk has no half-step 9"},
+        CertificateForgery{"OfNothing",
+                           Row("double_support", [](auto& row) { row[kSubjectAt] = "half-step"; }),
+                           "nothing is called 'half-step'"},
+        CertificateForgery{"ShiftUnwatched",
+                           Row("double_support",
+                               [](auto& row) {
+                                 row[kSubjectAt] = "no half-step";
+                                 row[kMarginAt] = "inf";
+                               }),
+                           "changes support in 0.1 s"},
+        CertificateForgery{"ShiftDemandRaised",
+                           Document([](Json& j) { j["demanded"]["double_support"] = 0.2; }),
+                           "ZMPs from foot to foot"},
+        CertificateForgery{"ShiftsLeftOut",
+                           [](TamperedRun& run) {
+                             run.EditJson([](Json& j) {
+                               j["demanded"].erase("double_support");
+                               j["statements"].erase("double_support");
+                             });
+                             run.EditCertificate([](Table& t) {
+                               std::erase_if(t, [](const auto& row) {
+                                 return row[kFamilyAt] == "double_support";
+                               });
+                             });
+                           },
+                           "double_support: the certificate demands -inf, config.yaml 0.1"},
+        CertificateForgery{"NotInTheStatement", Document([](Json& j) {
+                             std::string text = j["statement"];
+                             const std::string words =
+                                 ", how long the ZMP of each half-step goes from foot to foot";
+                             j["statement"] = text.erase(text.find(words), words.size());
+                           }),
+                           "the certificate's statement is not the one that is verified"},
+        CertificateForgery{"LandingRaised", Row("landing_speed", Raise), "by the walk"},
+        CertificateForgery{"LandingBoundLowered",
+                           [](TamperedRun& run) {
+                             run.EditCertificate([](Table& t) {
+                               for (auto& row : t) {
+                                 if (row[kFamilyAt] == "landing_speed") row[kBoundAt] = "0";
+                               }
+                             });
+                           },
+                           "beyond"},
+        CertificateForgery{"LandingLimitLooser",
+                           Document([](Json& j) { j["limits"]["landing_speed_m_s"] = 2.0; }),
+                           "landing_speed_m_s: the certificate's limit is looser"},
+        CertificateForgery{"LandingLimitLower",
+                           Document([](Json& j) { j["limits"]["landing_speed_m_s"] = 0.02; }),
+                           "landing speed"},
+        CertificateForgery{"AccelerationLooser", Document([](Json& j) {
+                             j["limits"]["joint_acceleration_rad_s2"] = 100.0;
+                           }),
+                           "joint_acceleration_rad_s2: the certificate's limit is looser"},
+        CertificateForgery{"AssumptionUntold", Document([](Json& j) {
+                             auto& list = j["not_covered"];
+                             for (size_t i = 0; i < list.size(); ++i) {
+                               if (list[i]["subject"] == "joint_acceleration") list.erase(i);
+                             }
+                           }),
+                           "limits of joint accelerations are assumed (12 rad/s²)"}),
     [](const auto& info) { return info.param.name; });
 
 TEST(VerifyAsked, WhatIsUntouchedIsVerifiedAndSaysWhatWasLookedAt) {

@@ -9,7 +9,7 @@
 #include "smoothing/margins/demandable.h"
 #include "smoothing/margins/family_traits.h"
 #include "tests/smoothing/certificate_draws.h"
-#include "tests/verify/verify_mutation.h"
+#include "tests/verify/certificate_forgery.h"
 #include "wpg/files/number_text.h"
 #include "wpg/nth.h"
 
@@ -37,23 +37,9 @@ void Demand(const std::string& family, double demanded, TamperedRun* run) {
   });
 }
 
-struct TubeForgery {
-  std::string name;
-  std::function<void(TamperedRun&)> forge;
-  std::string reason;  // part of what must be said
-};
-void PrintTo(const TubeForgery& forgery, std::ostream* out) { *out << forgery.name; }
+class ForgedTubes : public testing::TestWithParam<CertificateForgery> {};
 
-class ForgedTubes : public testing::TestWithParam<TubeForgery> {};
-
-TEST_P(ForgedTubes, AreRefused) {
-  TamperedRun run(WalkInATube());
-  GetParam().forge(run);
-  run.Rehash();
-  const Outcome outcome = run.Verify();
-  EXPECT_EQ(outcome.status, kNotVerified) << outcome.out << outcome.err;
-  EXPECT_THAT(outcome.out + outcome.err, HasSubstr(GetParam().reason));
-}
+TEST_P(ForgedTubes, AreRefused) { ExpectRefused(WalkInATube(), GetParam()); }
 
 std::function<void(TamperedRun&)> TubeJson(std::function<void(Json&)> edit) {
   return [edit](TamperedRun& run) { run.EditJson(edit); };
@@ -62,41 +48,46 @@ std::function<void(TamperedRun&)> TubeJson(std::function<void(Json&)> edit) {
 INSTANTIATE_TEST_SUITE_P(
     Verify, ForgedTubes,
     testing::Values(
-        TubeForgery{"DemandedAsWithout", [](TamperedRun& run) { Demand("floor", 0.005, &run); },
-                    "floor: the certificate demands 0.005, config.yaml 0.0112"},
-        TubeForgery{"DemandedALittleLess",
-                    [](TamperedRun& run) { Demand("zmp_robot", 0.026, &run); },
-                    "zmp_robot: the certificate demands 0.026, config.yaml 0.0262"},
-        TubeForgery{"Wider", TubeJson([](Json& j) { j["tube"]["joint_rad"] = 0.01; }),
-                    "the tube of the certificate is not that of config.yaml"},
+        CertificateForgery{"DemandedAsWithout",
+                           [](TamperedRun& run) { Demand("floor", 0.005, &run); },
+                           "floor: the certificate demands 0.005, config.yaml 0.0112"},
+        CertificateForgery{"DemandedALittleLess",
+                           [](TamperedRun& run) { Demand("zmp_robot", 0.026, &run); },
+                           "zmp_robot: the certificate demands 0.026, config.yaml 0.0262"},
+        CertificateForgery{"Wider", TubeJson([](Json& j) { j["tube"]["joint_rad"] = 0.01; }),
+                           "the tube of the certificate is not that of config.yaml"},
         // The config says so, too: what is demanded does not suffice any more.
-        TubeForgery{"WiderEverywhere",
-                    [](TamperedRun& run) {
-                      run.EditJson([](Json& j) { j["tube"]["waist_m"] = 0.01; });
-                      TamperedRun::Replace(run.run() / "config.yaml", "waist_m: 0.005",
-                                           "waist_m: 0.01");
-                    },
-                    "ground: the certificate says that the tube raises it by"},
-        TubeForgery{"RaisedLess", TubeJson([](Json& j) { j["tube"]["raised"]["floor"] = 0.006; }),
-                    "floor: the certificate says that the tube raises it by 0.006"},
-        TubeForgery{"TakenLess", TubeJson([](Json& j) { j["tube"]["taken"]["clearance"] = 0.006; }),
-                    "tube: the certificate says that it takes 0.006"},
-        TubeForgery{"SelfClearanceAsWithout",
-                    [](TamperedRun& run) {
-                      run.EditCertificate([](Table& table) {
-                        for (auto& row : table) {
-                          if (row[2] != "self_clearance") continue;
-                          row[5] = ShortestText(std::stod(row[5]) + 0.004);
-                        }
-                      });
-                    },
-                    "by the walk"},
-        TubeForgery{"MoreFamilies", TubeJson([](Json& j) { j["tube"]["raised"]["friction"] = 0; }),
-                    "other families are raised than those that hold in it"},
-        TubeForgery{"FewerFamilies", TubeJson([](Json& j) { j["tube"]["raised"].erase("joint"); }),
-                    "other families are raised than those that hold in it"},
-        TubeForgery{"LeftOut", TubeJson([](Json& j) { j.erase("tube"); }),
-                    "config.yaml has a tube, the certificate has none"}),
+        CertificateForgery{"WiderEverywhere",
+                           [](TamperedRun& run) {
+                             run.EditJson([](Json& j) { j["tube"]["waist_m"] = 0.01; });
+                             TamperedRun::Replace(run.run() / "config.yaml", "waist_m: 0.005",
+                                                  "waist_m: 0.01");
+                           },
+                           "ground: the certificate says that the tube raises it by"},
+        CertificateForgery{"RaisedLess",
+                           TubeJson([](Json& j) { j["tube"]["raised"]["floor"] = 0.006; }),
+                           "floor: the certificate says that the tube raises it by 0.006"},
+        CertificateForgery{"TakenLess",
+                           TubeJson([](Json& j) { j["tube"]["taken"]["clearance"] = 0.006; }),
+                           "tube: the certificate says that it takes 0.006"},
+        CertificateForgery{"SelfClearanceAsWithout",
+                           [](TamperedRun& run) {
+                             run.EditCertificate([](Table& table) {
+                               for (auto& row : table) {
+                                 if (row[2] != "self_clearance") continue;
+                                 row[5] = ShortestText(std::stod(row[5]) + 0.004);
+                               }
+                             });
+                           },
+                           "by the walk"},
+        CertificateForgery{"MoreFamilies",
+                           TubeJson([](Json& j) { j["tube"]["raised"]["friction"] = 0; }),
+                           "other families are raised than those that hold in it"},
+        CertificateForgery{"FewerFamilies",
+                           TubeJson([](Json& j) { j["tube"]["raised"].erase("joint"); }),
+                           "other families are raised than those that hold in it"},
+        CertificateForgery{"LeftOut", TubeJson([](Json& j) { j.erase("tube"); }),
+                           "config.yaml has a tube, the certificate has none"}),
     [](const auto& info) { return info.param.name; });
 
 TEST(VerifyTube, AcceptsTheRunAsItIs) {
