@@ -37,20 +37,25 @@ def played(halfstep, method, run, robot):
     return json.loads(out.stdout)["methods"][0]
 
 
+def rows_of(halfstep, method, run, robots):
+    """The rows of COLUMNS of a run's walk, one a robot."""
+    for robot in robots:
+        walk = played(halfstep, method, run, robot)
+        median, largest = walk["median"], walk["largest"]
+        yield [pathlib.Path(run).name, walk["method"], f"{walk['duration_s']:.3f}", robot,
+               walk["stands"], walk["of"], f"{math.degrees(median['largest_tilt_rad']):.2f}",
+               f"{median['edge_share']:.3f}", f"{median['peak_weights']:.2f}",
+               f"{largest['flight_s']:.3f}"]
+
+
 def main():
     if len(sys.argv) < 4:
         sys.exit(__doc__)
     table = csv.writer(sys.stdout, lineterminator="\n")
     table.writerow(COLUMNS)
     for run in sys.argv[3:]:
-        for robot in ROBOTS:
-            walk = played(sys.argv[1], sys.argv[2], run, robot)
-            median, largest = walk["median"], walk["largest"]
-            table.writerow([
-                pathlib.Path(run).name, walk["method"], f"{walk['duration_s']:.3f}", robot,
-                walk["stands"], walk["of"], f"{math.degrees(median['largest_tilt_rad']):.2f}",
-                f"{median['edge_share']:.3f}", f"{median['peak_weights']:.2f}",
-                f"{largest['flight_s']:.3f}"])
+        for row in rows_of(sys.argv[1], sys.argv[2], run, ROBOTS):
+            table.writerow(row)
             sys.stdout.flush()
 
 

@@ -18,7 +18,7 @@ MarginLimits LimitsOf(DemandProfile profile) {
   MarginLimits limits;
   switch (profile) {
     case DemandProfile::kWalkable:
-      limits.demanded_of(MarginFamily::kZmpRobot) = 0.03;
+      limits.demanded_of(MarginFamily::kZmpRobot) = 0.0274;
       limits.demanded_of(MarginFamily::kFriction) = 0.3;
       limits.demanded_of(MarginFamily::kDoubleSupport) = 0.08;
       break;
