@@ -58,6 +58,27 @@ TEST(DoubleSupportMargin, IsTheShortestShiftThatGoesOn) {
   EXPECT_GT(watched, Draws(40));
 }
 
+// Two shifts at once, either of them the shorter, at an instant by any of its names.
+TEST(DoubleSupportMargin, IsTheSameByEveryNameOfAnInstant) {
+  const MarginEvaluator evaluator(Hrp2(), {}, Only(kSupport, 0.0));
+  MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
+  const HalfStepSequence sequence = TwoSteps(Hrp2());
+  for (const int shorter : {1, 2}) {
+    HomotopyParameters parameters = PlannedMotion(sequence);
+    parameters.zmp_shifts.assign(4, 0.2);
+    parameters.zmp_shifts[static_cast<size_t>(shorter)] = 0.1;
+    parameters.overlaps[1] = NaturalOverlapBound(parameters, 1);
+    const SuperposedWalk walk(sequence, parameters);
+    const double middle = walk.start_of(2) + 0.5 * parameters.durations[2];
+    for (int name = 0; name <= 2; ++name) {
+      const Margin margin =
+          Of(evaluator.At(walk, {name, middle - walk.start_of(name)}, &scratch), kSupport);
+      EXPECT_EQ(margin.subject, shorter) << name;
+      EXPECT_NEAR(margin.value, ShiftOf(parameters, shorter), 2e-12);
+    }
+  }
+}
+
 // From the landing of a step's foot to the next lift-off, half of both shifts at least.
 TEST(DoubleSupportMargin, BoundsHowLongBothFeetStand) {
   WalkDraw draw(1002);
