@@ -62,7 +62,8 @@ struct RobotCommand {
 
 /// `halfstep robot`: a robot file of a URDF, a picture and the config of six steps beside it, and
 /// what became of the six steps. kFailed when they are not certified; the files stand all the same.
-/// Throws InputError for a URDF that is no robot of the class; then nothing is written.
+/// Throws InputError for a URDF that is no robot of the class; then the robot file has what was
+/// found of it, marked as refused, and nothing else is written.
 ExitStatus SurveyRobotFile(const RobotCommand& command);
 
 struct SmoothCommand {

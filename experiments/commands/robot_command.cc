@@ -98,14 +98,32 @@ bool Walk(const RobotFiles& files, bool quiet) {
   return false;
 }
 
+// Writes what was found of a robot that is refused, and throws.
+[[noreturn]] void Refuse(const RobotDraft& draft, std::vector<std::string> complaints,
+                         const fs::path& file) {
+  WriteWhole(file, {RefusedYamlOf(draft, complaints)});
+  complaints.push_back("written: " + file.string() + ", what was found, marked as refused");
+  throw InputError(std::move(complaints));
+}
+
+RobotModel ModelOrRefusal(const RobotDraft& draft, const fs::path& file) {
+  try {
+    return ModelOf(draft);
+  } catch (const InputError& error) {
+    Refuse(draft, error.complaints(), file);
+  }
+}
+
 }  // namespace
 
 ExitStatus SurveyRobotFile(const RobotCommand& command) {
   const RobotFiles files = FilesOf(command);
-  const RobotDraft draft = SurveyRobot(command.survey);
-  const RobotModel robot = ModelOf(draft);
-  const fs::path folder = fs::absolute(files.robot).parent_path();
-  WriteWhole(files.robot, {YamlOf(draft, folder)});
+  SurveyRequest request = command.survey;
+  request.out = files.robot;
+  const auto [draft, refused] = SurveyRobot(request);
+  if (!refused.empty()) Refuse(draft, refused, files.robot);
+  const RobotModel robot = ModelOrRefusal(draft, files.robot);
+  WriteWhole(files.robot, {YamlOf(draft)});
   WriteWhole(files.picture, {RobotPicture(robot)});
   WriteWhole(files.walk,
              {StarterConfigText(robot, {.robot_file = files.robot.filename().string()})});

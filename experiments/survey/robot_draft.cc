@@ -1,6 +1,8 @@
 #include "experiments/survey/robot_draft.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <numbers>
 
 #include "wpg/elementary.h"
@@ -44,10 +46,22 @@ std::string Quoted(const std::string& text) {
   return "'" + quoted + "'";
 }
 
+// A joint's angle [deg] as it is written: of the nearest such numbers, one within its limits.
+std::string WithinLimits(double angle, const std::array<double, 2>& limits) {
+  constexpr int kPlaces = 4;
+  constexpr double kUnit = 1e-4;
+  std::string text = Decimal(angle, kPlaces);
+  const double written = kUnit * std::round(angle / kUnit);
+  if (written < limits[0]) text = Decimal(kUnit * std::ceil(limits[0] / kUnit), kPlaces);
+  if (written > limits[1]) text = Decimal(kUnit * std::floor(limits[1] / kUnit), kPlaces);
+  return text;
+}
+
 std::string LinkName(const RobotDraft& draft, int link) { return Nth(draft.urdf.links, link).name; }
 
 std::string LegsText(const RobotDraft& draft) {
   const FoundSole& sole = draft.soles[0];
+  if (sole.size.isZero()) return "# The soles were not looked for.\n";
   std::string text =
       "# The soles: the largest flat part of each foot's bodies, " + Decimal(1e3 * sole.depth, 1) +
       " mm below the frame of the foot's link; its centre is that\n"
@@ -71,6 +85,7 @@ std::string LegsText(const RobotDraft& draft) {
 
 std::string PostureText(const RobotDraft& draft) {
   const UrdfTree& urdf = draft.urdf;
+  if (draft.standing.width == 0.0) return "# A posture was not looked for.\n";
   std::string text = "# Hip and ankle are " + Decimal(100 * draft.standing.bend, 0) +
                      " % of the stretched leg apart" +
                      (draft.why_bend.empty() ? "" : " (" + draft.why_bend + ")") +
@@ -78,7 +93,12 @@ std::string PostureText(const RobotDraft& draft) {
                      " m apart:\n# " + draft.why_width + ".\nstanding_posture_deg:\n";
   for (size_t i = 0; i < urdf.joints.size(); ++i) {
     if (urdf.joints[i].kind != UrdfJoint::Kind::kRevolute) continue;
-    const std::string angle = Decimal(kDegrees * draft.posture[i], 4);
+    const auto narrower = draft.limits.find(static_cast<int>(i));
+    const std::array<double, 2> limits =
+        narrower == draft.limits.end() ? std::array{urdf.joints[i].lower, urdf.joints[i].upper}
+                                       : narrower->second;
+    const std::string angle =
+        WithinLimits(kDegrees * draft.posture[i], {kDegrees * limits[0], kDegrees * limits[1]});
     const auto why = draft.why_posture.find(static_cast<int>(i));
     if (angle == "0" && why == draft.why_posture.end()) continue;
     text += "  " + Quoted(urdf.joints[i].name) + ": " + angle +
@@ -113,7 +133,8 @@ std::string ExcludedText(const RobotDraft& draft) {
 
 }  // namespace
 
-std::string YamlOf(const RobotDraft& draft, const fs::path& folder) {
+std::string YamlOf(const RobotDraft& draft) {
+  const fs::path folder = draft.path.parent_path();
   std::string text =
       "# A guess by `halfstep robot`, to be looked at. Keys: wpg/README.md, \"Robots\".\n";
   text += "name: " + Quoted(draft.name) + "\n";
@@ -141,6 +162,7 @@ std::string YamlOf(const RobotDraft& draft, const fs::path& folder) {
               draft.why_parts.at(link) + "\n";
     }
   }
+  if (draft.legs.waist < 0) return text + "# Waist and legs were not found.\n";
   text +=
       "# Both legs hang on it.\nwaist_link: " + Quoted(LinkName(draft, draft.legs.waist)) + "\n";
   if (const Eigen::Vector3d rpy = RpyOf(draft.R_LinkB); rpy.cwiseAbs().maxCoeff() > 1e-9) {
@@ -161,10 +183,34 @@ std::string YamlOf(const RobotDraft& draft, const fs::path& folder) {
   return text + LegsText(draft) + PostureText(draft) + LimitsText(draft) + ExcludedText(draft);
 }
 
+std::string RefusedYamlOf(const RobotDraft& draft, const std::vector<std::string>& complaints) {
+  const std::string yaml = YamlOf(draft), file = draft.path.string() + ":";
+  std::vector<std::string> at_end;
+  std::map<int, std::string> at_line;  // from 1
+  for (const std::string& complaint : complaints) {
+    int line = 0;
+    if (complaint.starts_with(file)) {
+      std::from_chars(complaint.data() + file.size(), complaint.data() + complaint.size(), line);
+    }
+    const std::string mark = "# REFUSED: " + complaint;
+    if (line > 0) {
+      at_line[line] += "  " + mark;
+    } else {
+      at_end.push_back(mark);
+    }
+  }
+  std::string text = "# REFUSED, as said below.";
+  int line = 1;
+  for (const char c : std::string_view(yaml).substr(1)) {
+    if (c == '\n') text += at_line[line++];
+    text += c;
+  }
+  for (const std::string& mark : at_end) text += mark + "\n";
+  return text;
+}
+
 RobotModel ModelOf(const RobotDraft& draft, RobotParts parts) {
-  const fs::path folder = fs::absolute(draft.urdf_path).parent_path();
-  const std::string path = (folder / (draft.name + ".yaml")).string();
-  const std::string text = YamlOf(draft, folder);
+  const std::string path = draft.path.string(), text = YamlOf(draft);
   return BuildRobot(path, text, ReadRobotFile(path, text), parts);
 }
 

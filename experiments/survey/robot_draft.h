@@ -16,7 +16,8 @@ namespace halfstep {
 
 /// A robot file in the making: what was found of a URDF, and why.
 struct RobotDraft {
-  std::string name;                             ///< of the robot file
+  std::string name;                             ///< of the robot
+  std::filesystem::path path;                   ///< of the robot file, which need not be there
   std::filesystem::path urdf_path;              ///< of the robot, as the user gave it
   std::map<std::string, std::string> packages;  ///< given by the user: name → folder
   UrdfTree urdf;                                ///< with the waist frame in its link
@@ -43,10 +44,16 @@ struct RobotDraft {
   std::map<int, std::string> why_posture;  ///< of joints outside the legs, by URDF joint index
 };
 
-/// The draft as a robot file that stands in `folder`, each number with its reason as a comment.
-std::string YamlOf(const RobotDraft& draft, const std::filesystem::path& folder);
+/// The draft as a robot file, each number with its reason as a comment; of what is not found yet, a
+/// comment that says so.
+std::string YamlOf(const RobotDraft& draft);
 
-/// The model of that file. Throws InputError where the draft is no robot.
+/// The same of a draft that was refused: its first line says so, and each complaint stands at the
+/// line that it is about, or else at the end.
+std::string RefusedYamlOf(const RobotDraft& draft, const std::vector<std::string>& complaints);
+
+/// The model of that file. Throws InputError where the draft is no robot; complaints are of the
+/// file's lines.
 RobotModel ModelOf(const RobotDraft& draft, RobotParts parts = RobotParts::kAll);
 
 }  // namespace halfstep

@@ -31,11 +31,26 @@ class Surveyor {
  public:
   explicit Surveyor(const SurveyRequest& request) : request_(request) {}
 
-  RobotDraft Survey() {
+  RobotSurvey Survey() {
     draft_.urdf_path = std::filesystem::absolute(request_.urdf).lexically_normal();
     draft_.name = request_.name.empty() ? request_.urdf.stem().string() : request_.name;
+    draft_.path = request_.out.empty() ? draft_.urdf_path.parent_path() / (draft_.name + ".yaml")
+                                       : std::filesystem::absolute(request_.out).lexically_normal();
     draft_.packages = request_.packages;
     draft_.urdf = ReadUrdf(draft_.urdf_path.string());
+    try {
+      Find();
+    } catch (const InputError& error) {
+      return {draft_, error.complaints()};
+    }
+    return {draft_};
+  }
+
+ private:
+  static double ScaleOf(const Leg& leg) { return StretchedLength(leg) / 0.6; }
+
+  // Fills the draft, part after part. Throws InputError where the robot is not of the class.
+  void Find() {
     draft_.legs = FindLegs(draft_.urdf, request_.legs);
     draft_.R_LinkB = FindWaistRotation(draft_.urdf, draft_.legs);
     draft_.urdf.TurnFrame(draft_.legs.waist, draft_.R_LinkB);
@@ -50,11 +65,7 @@ class Surveyor {
       Nth(draft_.posture, turn.joint) = turn.angle;
       draft_.why_posture[turn.joint] = turn.why;
     }
-    return draft_;
   }
-
- private:
-  static double ScaleOf(const Leg& leg) { return StretchedLength(leg) / 0.6; }
 
   void AskForTheClass() {
     const UrdfTree& urdf = draft_.urdf;
@@ -166,6 +177,6 @@ class Surveyor {
 
 }  // namespace
 
-RobotDraft SurveyRobot(const SurveyRequest& request) { return Surveyor(request).Survey(); }
+RobotSurvey SurveyRobot(const SurveyRequest& request) { return Surveyor(request).Survey(); }
 
 }  // namespace halfstep

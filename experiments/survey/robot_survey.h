@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "experiments/survey/robot_draft.h"
 #include "experiments/survey/stance_search.h"
@@ -13,15 +14,23 @@ namespace halfstep {
 struct SurveyRequest {
   std::filesystem::path urdf;                        ///< of the robot
   std::string name = {};                             ///< "": that of the URDF's file
+  std::filesystem::path out = {};                    ///< the robot file; "": NAME.yaml beside it
   LegNames legs = {};                                ///< waist and feet, where the user names them
   std::map<std::string, std::string> packages = {};  ///< name → folder
   StanceRequest stance = {};                         ///< how the robot shall stand
 };
 
+/// What was found of a URDF.
+struct RobotSurvey {
+  RobotDraft draft;  ///< as far as it goes
+  /// Complaints, the first of which is one sentence that says what keeps the robot from being of
+  /// the class; empty: nothing does.
+  std::vector<std::string> refused = {};
+};
+
 /// Makes a robot file of a URDF: finds waist and legs; asks whether the robot is of the class;
 /// finds waist frame, soles, a posture to stand in, joints of the arms that keep them off the legs,
-/// and neighbours that touch by design. Throws InputError: its first complaint is one sentence that
-/// says what keeps the robot from being of the class.
-RobotDraft SurveyRobot(const SurveyRequest& request);
+/// and neighbours that touch by design. Throws InputError for a URDF that cannot be read.
+RobotSurvey SurveyRobot(const SurveyRequest& request);
 
 }  // namespace halfstep

@@ -83,7 +83,7 @@ TEST(RobotSurvey, FindsLegsSolesAndAPostureOfRobotsWithOtherAxes) {
     SCOPED_TRACE(robot.name);
     const TemporaryFolder place;
     const std::string file = WriteText(place / "robot.urdf", GeneratedUrdf(robot));
-    const RobotDraft draft = SurveyRobot({.urdf = file});
+    const RobotDraft draft = SurveyRobot({.urdf = file}).draft;
     EXPECT_TRUE(draft.R_LinkB.isIdentity(0.0));
     EXPECT_TRUE(draft.legs.sides_by_name);
     for (const Side side : {Side::kLeft, Side::kRight}) {
@@ -108,9 +108,10 @@ TEST(RobotSurvey, BendsKneesLessForTheirTorque) {
                                               std::regex("effort=\"300\""), "effort=\"150\"");
   const RobotDraft draft =
       SurveyRobot({.urdf = WriteText(place / "bison.urdf", urdf),
-                   .packages = {{"bison_bodies", (kRobots / "bison").string()}}});
+                   .packages = {{"bison_bodies", (kRobots / "bison").string()}}})
+          .draft;
   EXPECT_EQ(draft.standing.bend, 0.94);
-  EXPECT_THAT(YamlOf(draft, place.path()),
+  EXPECT_THAT(YamlOf(draft),
               testing::ContainsRegex("94 % of the stretched leg apart \\(with more bend a joint "
                                      "lacks [0-9.]+ N m in six steps\\)"));
   EXPECT_GE(LeastInSixSteps(ModelOf(draft), MarginFamily::kTorque, 0.01), 0.0);
@@ -143,12 +144,8 @@ TEST(StarterConfig, SaysWhyStepsAreShort) {
 
 std::string UrdfRefusal(const std::string& urdf) {
   const TemporaryFolder place;
-  try {
-    (void)SurveyRobot({.urdf = WriteText(place / "robot.urdf", urdf)});
-  } catch (const InputError& error) {
-    return error.complaints().front();
-  }
-  return "";
+  const RobotSurvey survey = SurveyRobot({.urdf = WriteText(place / "robot.urdf", urdf)});
+  return survey.refused.empty() ? "" : survey.refused.front();
 }
 
 TEST(RobotSurvey, SaysFirstWhatKeepsARobotFromBeingOfTheClass) {
@@ -165,6 +162,54 @@ TEST(RobotSurvey, SaysFirstWhatKeepsARobotFromBeingOfTheClass) {
       "<link name='finger'/><joint name='grip' type='revolute'><parent link='waist'/>"
       "<child link='finger'/><axis xyz='0 0 0'/></joint></robot>";
   EXPECT_EQ(UrdfRefusal(Replaced(good, "</robot>", finger)), "");
+}
+
+// An arm that cannot come to zero stands at its limit, which rounding must not carry it over.
+TEST(RobotSurvey, WritesAnglesThatReadBackWithinTheirLimits) {
+  const std::string urdf = GeneratedUrdf(GeneratedRobots()[0]);
+  for (const char* limits : {"lower='0.1234567' upper='1'", "lower='-1' upper='-0.1234567'",
+                             "lower='0.123456' upper='1'", "lower='-1' upper='-0.123456'"}) {
+    const TemporaryFolder place;
+    const std::string arm =
+        "<link name='arm'/><joint name='shoulder' type='revolute'><parent link='waist'/><child "
+        "link='arm'/><axis xyz='0 1 0'/><limit velocity='1' effort='1' " +
+        std::string(limits) + "/></joint></robot>";
+    const RobotSurvey survey =
+        SurveyRobot({.urdf = WriteText(place / "robot.urdf", Replaced(urdf, "</robot>", arm))});
+    ASSERT_THAT(survey.refused, IsEmpty());
+    EXPECT_THAT(YamlOf(survey.draft), HasSubstr("'shoulder': ")) << limits;
+    EXPECT_NO_THROW((void)ModelOf(survey.draft)) << limits;
+  }
+}
+
+// What is refused leaves what was found, with the reason.
+TEST(RobotCommand, WritesTheDraftOfARobotThatItRefuses) {
+  const TemporaryFolder place;
+  GeneratedRobot robot = GeneratedRobots()[0];
+  const std::string urdf = GeneratedUrdf(robot);
+  const auto draft_of = [&](const std::string& text, const std::string& refusal) {
+    WriteText(place / "robot.urdf", text);
+    const Outcome outcome = Halfstep(place.path(), {"robot", "robot.urdf", "--overwrite"});
+    EXPECT_EQ(outcome.status, kBadInput);
+    EXPECT_THAT(outcome.err, HasSubstr(refusal));
+    EXPECT_THAT(outcome.err, HasSubstr("written: robot.yaml, what was found, marked as refused"));
+    EXPECT_FALSE(fs::exists(place / "robot.svg"));
+    const std::string draft = ReadText(place / "robot.yaml");
+    EXPECT_THAT(draft, StartsWith("# REFUSED, as said below."));
+    EXPECT_THAT(draft, HasSubstr(refusal));
+    // The file itself says so to whoever uses it.
+    EXPECT_THROW((void)LoadRobot((place / "robot.yaml").string()), InputError);
+    return draft;
+  };
+  const std::string no_legs =
+      draft_of("<robot name='r'><link name='stone'/></robot>", "there are no two legs");
+  EXPECT_THAT(no_legs, HasSubstr("# Waist and legs were not found."));
+  // One knee is quicker than the other.
+  const std::string quicker =
+      std::regex_replace(urdf, std::regex("(left_joint3'[^\\n]*velocity=')[0-9.]*"), "$017.5");
+  const std::string unequal = draft_of(quicker, "its speed limit differs");
+  EXPECT_THAT(unequal, HasSubstr("waist_link: 'waist'"));
+  EXPECT_THAT(unequal, HasSubstr("# The soles were not looked for."));
 }
 
 TEST(ScaledDefaults, AreHrp2sForHrp2) {
