@@ -82,6 +82,24 @@ void CheckController(const ReplayCommand& command, const RobotModel& robot) {
   }
 }
 
+// Throws InputError for what no tube speaks of.
+void CheckTube(const ReplayCommand& command) {
+  if (!command.suggest_tube) return;
+  if (command.push) {
+    throw InputError(
+        {"--suggest-tube: a walk that --push makes fall is in no tube (valid: without "
+         "--push; --seeds pushes as well)"});
+  }
+  if (command.floor) {
+    throw InputError(
+        {"--suggest-tube: a tube is about the floor that is planned (valid: without "
+         "--floor)"});
+  }
+  if (IsEpisode(command.run)) {
+    throw InputError({"--suggest-tube: " + command.run + " is an episode, which takes no tube"});
+  }
+}
+
 // What moves the robot in place of the plan. Precondition: IsControlled(command).
 replay::ControlSetup ControlOf(const ReplayCommand& command) {
   replay::ControlSetup control{
@@ -101,6 +119,7 @@ Task TaskOf(const ReplayCommand& command, WholeRobot robot,
   if (command.floor) task.setup.relief = replay::ParseRelief("--floor", *command.floor);
   CheckController(command, task.setup.robot.model);
   if (IsControlled(command)) task.setup.control = ControlOf(command);
+  task.setup.measures_tube = command.suggest_tube;
   const std::vector<std::string> unknown = JointsOfUnknownTorque(task.setup.robot.model);
   if (command.robot.torque_limits) {
     task.notes.push_back("Leg joints whose servos have no torque limit: " +
@@ -182,6 +201,21 @@ struct Telling {
   }
 };
 
+std::vector<const replay::ReplayResult*> ResultsOf(const std::vector<replay::SeedReplay>& seeds) {
+  std::vector<const replay::ReplayResult*> results;
+  for (const replay::SeedReplay& one : seeds) results.push_back(&one.result);
+  return results;
+}
+
+replay::SuggestedTube TubeOf(const Task& task,
+                             const std::vector<const replay::ReplayResult*>& played) {
+  std::vector<replay::MeasuredTube> standing;
+  for (const replay::ReplayResult* one : played) {
+    if (one->stayed_up) standing.push_back(one->tube.value());
+  }
+  return replay::SuggestTube(standing, static_cast<int>(played.size()), task.setup.robot.model);
+}
+
 // Each walk once, undisturbed but for the floor, which is that of seed 1.
 ExitStatus ReplayOnce(const Telling& telling, const std::vector<std::vector<double>>& push_at) {
   const auto& [command, task, interrupt] = telling;
@@ -204,6 +238,7 @@ ExitStatus ReplayOnce(const Telling& telling, const std::vector<std::vector<doub
     replay::CompareMassModel(task.setup.robot.model, task.setup.robot.tree, motion,
                              &replayed.result);
     stayed_up = stayed_up && replayed.result.stayed_up;
+    if (command.suggest_tube) replayed.tube = TubeOf(task, {&replayed.result});
     if (command.push && replayed.result.stayed_up) {
       ProgressBar bar("pushes of " + replayed.method, !telling.screen());
       replayed.pushes = replay::FindPushLimits(
@@ -226,7 +261,7 @@ ExitStatus ReplaySeeds(const Telling& telling) {
   bool stayed_up = true;
   for (const NamedMotion& one : task.motions) {
     ProgressBar bar("seeds of " + one.method, !telling.screen());
-    const replay::SeedsPlayed& played = all.emplace_back(
+    replay::SeedsPlayed& played = all.emplace_back(
         replay::SeedsPlayed{.method = one.method,
                             .duration = one.motion.end(),
                             .obstacles = !task.setup.obstacles.empty(),
@@ -235,6 +270,7 @@ ExitStatus ReplaySeeds(const Telling& telling) {
                                 [&bar](double done) { bar.Update(done); }, interrupt.token())});
     if (interrupt.requested()) return kInterrupted;
     stayed_up = stayed_up && replay::Standing(played.seeds) == *command.seeds;
+    if (command.suggest_tube) played.tube = TubeOf(task, ResultsOf(played.seeds));
     if (telling.screen()) std::cout << replay::SeedsText(played);
     tables.push_back(replay::SeedsCsv(played.seeds));
   }
@@ -274,6 +310,7 @@ ExitStatus Replay(const ReplayCommand& command) {
   if (command.seeds && command.push) {
     throw InputError({"--push: looks for the limit in one simulation (valid: without --seeds)"});
   }
+  CheckTube(command);
   const Task task = IsEpisode(command.run) ? EpisodeTask(command) : RunTask(command);
   const std::vector<std::vector<double>> push_at = AllInstants(command, task);
   if (const std::string why = replay::WhyNoSimulation(); !why.empty()) {
@@ -317,6 +354,8 @@ CommandAction DeclareReplay(CLI::App* app, const Toolbox& tools) {
                   "what is measured arrives so late [s] (default: 0.005)");
   app->add_option("--sensor-seed", command->sensor_seed,
                   "draws noise of sensors (default: no noise)");
+  app->add_flag("--suggest-tube", command->suggest_tube,
+                "print the `smoothing.tube` that holds where the robot is off its plan");
   app->add_flag(
       "--out", command->out,
       "write METHOD/replay.csv (episode: replay.csv; seeds: replays.csv) into the folder");

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "experiments/replay/seeded_replay.h"
+#include "experiments/replay/suggested_tube.h"
 #include "experiments/tables/csv_columns.h"
 
 namespace halfstep::replay {
@@ -14,6 +16,7 @@ struct SeedsPlayed {
   double duration = 0.0;          ///< of the walk [s]
   bool obstacles = false;         ///< whether there are any; else nothing is said of touches
   std::vector<SeedReplay> seeds;  ///< at least one
+  std::optional<SuggestedTube> tube = std::nullopt;  ///< where it was asked for
 };
 
 /// What `halfstep replay --seeds` prints of one walk: lines, each with its end.
