@@ -97,6 +97,14 @@ std::string SeedsText(const SeedsPlayed& played) {
   return text;
 }
 
+std::vector<const ReplayResult*> ResultsOf(const std::vector<SeedReplay>& seeds) {
+  std::vector<const ReplayResult*> results;
+  for (const SeedReplay& one : seeds) results.push_back(&one.result);
+  return results;
+}
+
+std::string SeedsPlayedJson(const SeedsPlayed& played) { return JsonOf(played).dump(2); }
+
 std::string SeedsJson(const std::string& run, const std::vector<std::string>& notes,
                       const std::vector<SeedsPlayed>& all) {
   ordered_json json = {

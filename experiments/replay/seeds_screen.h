@@ -22,6 +22,12 @@ struct SeedsPlayed {
 /// What `halfstep replay --seeds` prints of one walk: lines, each with its end.
 std::string SeedsText(const SeedsPlayed& played);
 
+/// The results of simulations.
+std::vector<const ReplayResult*> ResultsOf(const std::vector<SeedReplay>& seeds);
+
+/// What is told of one walk as the text of a JSON object.
+std::string SeedsPlayedJson(const SeedsPlayed& played);
+
 /// The whole output of `halfstep replay --seeds --json`; parameters as of ReplayJson().
 std::string SeedsJson(const std::string& run, const std::vector<std::string>& notes,
                       const std::vector<SeedsPlayed>& all);

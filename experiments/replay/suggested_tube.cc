@@ -23,7 +23,7 @@ double RoundedUp(double value) {
 
 // The keys of smoothing.tube.
 ordered_json KeysOf(Tube tube) {
-  return JsonOf([&tube](Fields& fields) { DeclareTube(fields, &tube); });
+  return halfstep::JsonOf([&tube](Fields& fields) { DeclareTube(fields, &tube); });
 }
 
 ordered_json RoundedUp(ordered_json keys) {
@@ -69,6 +69,14 @@ SuggestedTube SuggestTube(const std::vector<MeasuredTube>& standing, int of,
     tube.over.zmp_beside = std::max(tube.over.zmp_beside, one.zmp_beside);
   }
   return tube;
+}
+
+SuggestedTube SuggestTube(const std::vector<const ReplayResult*>& played, const RobotModel& robot) {
+  std::vector<MeasuredTube> standing;
+  for (const ReplayResult* one : played) {
+    if (one->stayed_up) standing.push_back(one->tube.value());
+  }
+  return SuggestTube(standing, static_cast<int>(played.size()), robot);
 }
 
 std::string SuggestedTubeText(const std::string& method, const SuggestedTube& tube) {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/replay/tube_gauge.h"
+#include "experiments/replay/replay.h"
 
 namespace halfstep::replay {
 
@@ -20,9 +20,12 @@ struct SuggestedTube {
   MeasuredTube over;
 };
 
-/// Of the simulations that stand, out of so many.
+/// Of the simulations that stood, out of so many.
 SuggestedTube SuggestTube(const std::vector<MeasuredTube>& standing, int of,
                           const RobotModel& robot);
+
+/// The tube that holds where they stood. Precondition: ReplaySetup::measures_tube.
+SuggestedTube SuggestTube(const std::vector<const ReplayResult*>& played, const RobotModel& robot);
 
 /// The keys of `smoothing.tube` as YAML, rounded up to two digits, behind each what 95 % of the
 /// instants do not exceed, and what it covers as comments; lines, each with its end. Where no robot
