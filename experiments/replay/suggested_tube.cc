@@ -17,7 +17,9 @@ using nlohmann::ordered_json;
 // Two significant digits, no less than the value.
 double RoundedUp(double value) {
   if (value == 0.0) return 0.0;
-  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
+  double unit = 0.1;  // of the second digit
+  while (unit > 0.1 * value) unit /= 10.0;
+  while (unit * 100.0 <= value) unit *= 10.0;
   return Shortened(std::ceil(value / unit) * unit, 3);
 }
 
