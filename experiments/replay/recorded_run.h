@@ -13,15 +13,15 @@ namespace halfstep::replay {
 
 /// A walk of a run as the servos follow it.
 struct RecordedWalk {
-  std::string method;
-  std::string folder;  ///< of its tables in the run, with a slash
-  ReferenceMotion motion;
+  std::string method;      ///< that smoothed it; "episode"
+  std::string folder;      ///< of its tables in the run, with a slash; "": the run itself
+  ReferenceMotion motion;  ///< of its trajectory.csv
 };
 
 /// What a run folder says of its robot, place and walks.
 struct RecordedRun {
-  WholeRobot robot;
-  SimulatedObstacles world;
+  WholeRobot robot;                 ///< with all links
+  SimulatedObstacles world;         ///< of its scene
   std::vector<RecordedWalk> walks;  ///< raw first
 };
 
