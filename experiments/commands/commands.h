@@ -131,6 +131,7 @@ struct ReplayCommand {
   std::optional<std::string> controller;
   std::optional<double> sensor_delay;        ///< SensorOptions::delay [s]
   std::optional<std::uint64_t> sensor_seed;  ///< SensorOptions::seed
+  bool suggest_tube = false;                 ///< tells how wide `smoothing.tube` has to be
   /// Write METHOD/replay.csv, of an episode replay.csv, there; with seeds replays.csv.
   bool out = false;
   bool quiet = false;

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 
@@ -8,8 +7,9 @@
 #include "experiments/commands/command_mistake.h"
 #include "experiments/commands/commands.h"
 #include "experiments/config/experiment.h"
-#include "experiments/config/folder_name.h"
 #include "experiments/replay/episode_folder.h"
+#include "experiments/replay/play_once.h"
+#include "experiments/replay/recorded_run.h"
 #include "experiments/replay/replay_screen.h"
 #include "experiments/replay/run_replay.h"
 #include "experiments/replay/seeds_screen.h"
@@ -27,8 +27,6 @@
 namespace halfstep {
 namespace {
 
-namespace fs = std::filesystem;
-
 // Instants of pushes within a walk.
 std::vector<double> Instants(const ReplayCommand& command, double duration) {
   if (command.push_at.empty()) return {0.25 * duration, 0.5 * duration, 0.75 * duration};
@@ -40,18 +38,11 @@ std::vector<double> Instants(const ReplayCommand& command, double duration) {
   return command.push_at;
 }
 
-/// A walk as the servos follow it.
-struct NamedMotion {
-  std::string method;
-  std::string folder;  ///< of its table in the run, with a slash; "": the run itself
-  replay::ReferenceMotion motion;
-};
-
 /// All that is simulated.
 struct Task {
   replay::ReplaySetup setup;
-  std::vector<std::string> notes;  ///< on what is simulated otherwise than files say
-  std::vector<NamedMotion> motions;
+  std::vector<std::string> notes;             ///< on what is simulated otherwise than files say
+  std::vector<replay::RecordedWalk> motions;  // `folder` of an episode is ""
 };
 
 bool IsControlled(const ReplayCommand& command) {
@@ -82,6 +73,24 @@ void CheckController(const ReplayCommand& command, const RobotModel& robot) {
   }
 }
 
+// Throws InputError for what no tube speaks of.
+void CheckTube(const ReplayCommand& command) {
+  if (!command.suggest_tube) return;
+  if (command.push) {
+    throw InputError(
+        {"--suggest-tube: a walk that --push makes fall is in no tube (valid: without "
+         "--push; --seeds pushes as well)"});
+  }
+  if (command.floor) {
+    throw InputError(
+        {"--suggest-tube: a tube is about the floor that is planned (valid: without "
+         "--floor)"});
+  }
+  if (IsEpisode(command.run)) {
+    throw InputError({"--suggest-tube: " + command.run + " is an episode, which takes no tube"});
+  }
+}
+
 // What moves the robot in place of the plan. Precondition: IsControlled(command).
 replay::ControlSetup ControlOf(const ReplayCommand& command) {
   replay::ControlSetup control{
@@ -101,6 +110,7 @@ Task TaskOf(const ReplayCommand& command, WholeRobot robot,
   if (command.floor) task.setup.relief = replay::ParseRelief("--floor", *command.floor);
   CheckController(command, task.setup.robot.model);
   if (IsControlled(command)) task.setup.control = ControlOf(command);
+  task.setup.measures_tube = command.suggest_tube;
   const std::vector<std::string> unknown = JointsOfUnknownTorque(task.setup.robot.model);
   if (command.robot.torque_limits) {
     task.notes.push_back("Leg joints whose servos have no torque limit: " +
@@ -110,17 +120,9 @@ Task TaskOf(const ReplayCommand& command, WholeRobot robot,
 }
 
 Task RunTask(const ReplayCommand& command) {
-  const std::vector<std::string> methods = MethodsOfRun(command.run, command.method);
-  const ExperimentConfig config =
-      LoadConfig((fs::path(command.run) / "config.yaml").string(), {}, command.tools);
-  replay::SimulatedObstacles world;
-  if (const auto scene = ScenePath(config)) world = replay::ObstaclesOf(LoadScene(scene->string()));
-  Task task = TaskOf(command, LoadWholeRobot(RobotPath(config).string()), world);
-  for (const std::string& method : methods) {
-    const fs::path path = fs::path(command.run) / MethodFolder(method) / "trajectory.csv";
-    task.motions.push_back({method, MethodFolder(method) + "/",
-                            replay::ReferenceMotion(ReadTrajectory(path, task.setup.robot.model))});
-  }
+  replay::RecordedRun run = replay::ReadRun(command.run, command.method, command.tools);
+  Task task = TaskOf(command, std::move(run.robot), run.world);
+  task.motions = std::move(run.walks);
   return task;
 }
 
@@ -141,14 +143,9 @@ std::vector<std::vector<double>> AllInstants(const ReplayCommand& command, const
     throw InputError({"--push-at: without --push it says nothing"});
   }
   std::vector<std::vector<double>> all;
-  for (const NamedMotion& one : task.motions) all.push_back(Instants(command, one.motion.end()));
+  for (const replay::RecordedWalk& one : task.motions)
+    all.push_back(Instants(command, one.motion.end()));
   return all;
-}
-
-std::vector<std::string> NamesOf(const auto& things) {
-  std::vector<std::string> names;
-  for (const auto& thing : things) names.push_back(thing.name);
-  return names;
 }
 
 // Writes one table for each motion into the run.
@@ -188,27 +185,20 @@ ExitStatus ReplayOnce(const Telling& telling, const std::vector<std::vector<doub
   std::vector<replay::Replayed> all;
   std::vector<CsvFile> tables;
   bool stayed_up = true;
+  const RobotModel& robot = task.setup.robot.model;
   for (size_t i = 0; i < task.motions.size(); ++i) {
     const replay::ReferenceMotion& motion = task.motions[i].motion;
-    const replay::Simulation simulation =
-        task.setup.Robot(replay::DrawWorld(1, task.setup, motion).floor);
-    replay::Replayed& replayed = all.emplace_back();
-    replayed.method = task.motions[i].method;
-    replayed.duration = motion.end();
-    replayed.window = task.setup.play.drift_window;
-    replayed.bodies = NamesOf(task.setup.robot.model.bodies);
-    replayed.obstacles = NamesOf(task.setup.obstacles);
+    replay::Replayed& replayed =
+        all.emplace_back(replay::PlayOnce(task.setup, task.motions[i].method, motion));
     replayed.controller = command.controller;
-    const replay::PlayOptions options = task.setup.PlayOf(simulation, motion);
-    replayed.result = replay::Play(simulation, motion, options);
-    replay::CompareMassModel(task.setup.robot.model, task.setup.robot.tree, motion,
-                             &replayed.result);
     stayed_up = stayed_up && replayed.result.stayed_up;
+    if (command.suggest_tube) replayed.tube = replay::SuggestTube({&replayed.result}, robot);
     if (command.push && replayed.result.stayed_up) {
+      const replay::Simulation simulation = replay::RobotOfOnce(task.setup, motion);
       ProgressBar bar("pushes of " + replayed.method, !telling.screen());
       replayed.pushes = replay::FindPushLimits(
-          simulation, motion, options, {}, push_at[i], [&bar](double done) { bar.Update(done); },
-          interrupt.token());
+          simulation, motion, task.setup.PlayOf(simulation, motion), {}, push_at[i],
+          [&bar](double done) { bar.Update(done); }, interrupt.token());
     }
     if (interrupt.requested()) return kInterrupted;
     if (telling.screen()) std::cout << replay::ReplayText(replayed);
@@ -224,9 +214,9 @@ ExitStatus ReplaySeeds(const Telling& telling) {
   std::vector<replay::SeedsPlayed> all;
   std::vector<CsvFile> tables;
   bool stayed_up = true;
-  for (const NamedMotion& one : task.motions) {
+  for (const replay::RecordedWalk& one : task.motions) {
     ProgressBar bar("seeds of " + one.method, !telling.screen());
-    const replay::SeedsPlayed& played = all.emplace_back(
+    replay::SeedsPlayed& played = all.emplace_back(
         replay::SeedsPlayed{.method = one.method,
                             .duration = one.motion.end(),
                             .obstacles = !task.setup.obstacles.empty(),
@@ -235,6 +225,9 @@ ExitStatus ReplaySeeds(const Telling& telling) {
                                 [&bar](double done) { bar.Update(done); }, interrupt.token())});
     if (interrupt.requested()) return kInterrupted;
     stayed_up = stayed_up && replay::Standing(played.seeds) == *command.seeds;
+    if (command.suggest_tube) {
+      played.tube = replay::SuggestTube(replay::ResultsOf(played.seeds), task.setup.robot.model);
+    }
     if (telling.screen()) std::cout << replay::SeedsText(played);
     tables.push_back(replay::SeedsCsv(played.seeds));
   }
@@ -274,6 +267,7 @@ ExitStatus Replay(const ReplayCommand& command) {
   if (command.seeds && command.push) {
     throw InputError({"--push: looks for the limit in one simulation (valid: without --seeds)"});
   }
+  CheckTube(command);
   const Task task = IsEpisode(command.run) ? EpisodeTask(command) : RunTask(command);
   const std::vector<std::vector<double>> push_at = AllInstants(command, task);
   if (const std::string why = replay::WhyNoSimulation(); !why.empty()) {
@@ -317,6 +311,8 @@ CommandAction DeclareReplay(CLI::App* app, const Toolbox& tools) {
                   "what is measured arrives so late [s] (default: 0.005)");
   app->add_option("--sensor-seed", command->sensor_seed,
                   "draws noise of sensors (default: no noise)");
+  app->add_flag("--suggest-tube", command->suggest_tube,
+                "print the `smoothing.tube` that holds where the robot is off its plan");
   app->add_flag(
       "--out", command->out,
       "write METHOD/replay.csv (episode: replay.csv; seeds: replays.csv) into the folder");

@@ -85,24 +85,6 @@ void DeclareLimits(Fields& fields, SmoothingConfig* c) {
                          .none_left_out = true});
 }
 
-void DeclareTube(Fields& fields, Tube* tube) {
-  const auto length = [&fields](const char* key, double* value, const char* meaning) {
-    fields.Number(key, value, {.meaning = meaning, .unit = "m", .min = 0, .max = 0.5});
-  };
-  const auto turn = [&fields](const char* key, double* value, const char* meaning) {
-    fields.Number(key, value, {.meaning = meaning, .unit = "deg", .min = 0, .max = 30});
-  };
-  length("foot_m", &tube->foot, "each sole's centre from its place, height included");
-  turn("foot_deg", &tube->foot_turn, "each sole turned, about any axis");
-  length("waist_m", &tube->waist, "origin of the waist's frame from its place");
-  turn("waist_deg", &tube->waist_turn, "the waist turned, about any axis");
-  fields.Number("joint_rad", &tube->joint,
-                {.meaning = "angle of each leg joint", .unit = "rad", .min = 0, .max = 0.5});
-  fields.Number("joint_speed_rad_s", &tube->joint_speed,
-                {.meaning = "speed of each leg joint", .unit = "rad/s", .min = 0, .max = 100});
-  length("zmp_m", &tube->zmp, "ZMP of the whole robot on the floor");
-}
-
 void DeclareMargins(Fields& fields, MarginLimits* l) {
   for (const MarginFamily family : FamiliesWith(l->own)) {
     const FamilyTraits& traits = Traits(family);
@@ -145,7 +127,42 @@ void DeclareOwn(Fields& fields, SmoothingConfig* c) {
                [&](Fields& f) { DeclareGroups(f, own, &c->options); });
 }
 
+constexpr double kMostTurnDegrees = 30;
+
 }  // namespace
+
+Tube WidestTube() {
+  const double turn = DegreesToRadians(kMostTurnDegrees);
+  return {.foot = 0.5,
+          .foot_turn = turn,
+          .waist = 0.5,
+          .waist_turn = turn,
+          .joint = 0.5,
+          .joint_speed = 100.0,
+          .zmp = 0.5};
+}
+
+void DeclareTube(Fields& fields, Tube* tube) {
+  const Tube widest = WidestTube();
+  const auto length = [&](const char* key, double* value, const char* meaning) {
+    fields.Number(key, value, {.meaning = meaning, .unit = "m", .min = 0, .max = widest.foot});
+  };
+  const auto turn = [&fields](const char* key, double* value, const char* meaning) {
+    fields.Number(key, value,
+                  {.meaning = meaning, .unit = "deg", .min = 0, .max = kMostTurnDegrees});
+  };
+  length("foot_m", &tube->foot, "each sole's centre from its place, height included");
+  turn("foot_deg", &tube->foot_turn, "each sole turned, about any axis");
+  length("waist_m", &tube->waist, "origin of the waist's frame from its place");
+  turn("waist_deg", &tube->waist_turn, "the waist turned, about any axis");
+  fields.Number(
+      "joint_rad", &tube->joint,
+      {.meaning = "angle of each leg joint", .unit = "rad", .min = 0, .max = widest.joint});
+  fields.Number(
+      "joint_speed_rad_s", &tube->joint_speed,
+      {.meaning = "speed of each leg joint", .unit = "rad/s", .min = 0, .max = widest.joint_speed});
+  length("zmp_m", &tube->zmp, "ZMP of the whole robot on the floor");
+}
 
 void SetKnown(Methods known, SmoothingConfig* config) {
   config->limits.own = known.own_margins();

@@ -53,6 +53,10 @@ void SetKnown(Methods known, SmoothingConfig* config);
 
 /// Declares the keys of the group.
 void DeclareSmoothing(Fields& fields, SmoothingConfig* config);
+/// Those of its `tube`.
+void DeclareTube(Fields& fields, Tube* tube);
+/// The widest tube that the keys take.
+Tube WidestTube();
 
 /// The parameters that a config fixes. Precondition: each names a family, which reading ensures.
 std::vector<FixedParameter> FixedParameters(const SmoothingConfig& config);

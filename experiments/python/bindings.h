@@ -19,6 +19,7 @@ void BindWalk(pybind11::module_& module);
 void BindExperiment(pybind11::module_& module, const ModuleTools& tools);
 void BindProgram(pybind11::module_& module);
 void BindRun(pybind11::module_& module, const ModuleTools& tools);
+void BindReplay(pybind11::module_& module, const ModuleTools& tools);
 void BindExtension(pybind11::module_& module, const ModuleTools& tools);
 
 }  // namespace halfstep::python

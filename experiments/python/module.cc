@@ -16,5 +16,6 @@ PYBIND11_MODULE(_halfstep, module) {
   BindExperiment(module, tools);
   BindProgram(module);
   BindRun(module, tools);
+  BindReplay(module, tools);
   BindExtension(module, tools);
 }

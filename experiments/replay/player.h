@@ -10,6 +10,8 @@
 
 namespace halfstep::replay {
 
+class TubeGauge;
+
 /// How a walk is played. Documented in experiments/README.md, "Replay".
 struct PlayOptions {
   double settle = 0.5;        ///< standing in the first row's posture before t = 0 [s]
@@ -20,6 +22,9 @@ struct PlayOptions {
   double edge = 0.003;        ///< so near to its edge the support is as good as tilting [m]
   /// What moves the robot, of which a player uses a copy; none: the servos get the plan itself.
   std::shared_ptr<const ControlLoop> control = nullptr;
+  /// Measures how wide a tube around the plan has to be, of which Play() uses a copy; none:
+  /// nothing.
+  std::shared_ptr<const TubeGauge> gauge = nullptr;
 };
 
 /// A push: a constant force on the waist.

@@ -88,12 +88,17 @@ ReplayResult Play(const Simulation& robot, const ReferenceMotion& motion,
                   const PlayOptions& options, const std::optional<Push>& push) {
   Player player(robot, motion, options);
   std::vector<ReplayRow> rows;
+  std::optional<TubeGauge> gauge;
+  if (options.gauge) gauge.emplace(*options.gauge).BeginAt(player.robot());
+  std::vector<TubeSample> samples;
   while (player.time() < motion.end() + options.hold && (rows.empty() || !rows.back().fallen)) {
     rows.push_back(player.Advance(motion, push));
+    if (gauge) samples.push_back(gauge->Of(player.robot(), rows.back(), options.row_period));
   }
   ReplayResult result =
       ResultOf(std::move(rows), player.touches(), motion.end(), robot.weight(), options);
   result.drift = player.DriftFrom(motion);
+  if (gauge) result.tube = MeasuredTube(samples);
   return result;
 }
 

@@ -7,6 +7,7 @@
 
 #include "experiments/replay/player.h"
 #include "experiments/replay/support_drift.h"
+#include "experiments/replay/tube_gauge.h"
 #include "experiments/tables/csv_columns.h"
 #include "wpg/robot/robot_tree.h"
 
@@ -33,6 +34,7 @@ struct ReplayResult {
   double peak = 0.0;                 ///< largest vertical force of a row, of the weight
   double flight = 0.0;               ///< time in which no sole carries [s]
   TrackingErrors off;                ///< from the plan, likewise
+  std::optional<MeasuredTube> tube;  ///< by PlayOptions::gauge
   std::vector<TouchRecord> touches;  ///< of bodies with obstacles, in order
   std::vector<ReplayRow> rows;       ///< from t = 0
 };

@@ -148,6 +148,7 @@ ordered_json Json(const Replayed& replayed) {
     json["tracking"] = {{"most", OffJson(result.off.most)},
                         {"largest", OffJson(result.off.largest)}};
   }
+  if (replayed.tube) json["suggested_tube"] = SuggestedTubeJson(*replayed.tube);
   if (!replayed.obstacles.empty()) {
     json["touches_walking"] = TouchesOf(replayed, false).size();
     json["touches_at_rest"] = TouchesOf(replayed, true).size();
@@ -192,6 +193,7 @@ std::string ReplayText(const Replayed& replayed) {
             (std::isinf(push.fell) ? ", the most that was tried\n"
                                    : ", falls at " + Formatted("%.1f N s\n", push.fell));
   }
+  if (replayed.tube) text += SuggestedTubeText(replayed.method, *replayed.tube);
   return text;
 }
 

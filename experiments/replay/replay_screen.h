@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "experiments/replay/replay.h"
+#include "experiments/replay/suggested_tube.h"
 
 namespace halfstep::replay {
 
@@ -17,6 +18,7 @@ struct Replayed {
   double window = 0.0;            ///< of the drift [s]
   ReplayResult result;            ///< how it went
   std::vector<PushLimit> pushes;  ///< that were survived, where they were asked for
+  std::optional<SuggestedTube> tube = std::nullopt;  ///< where it was asked for
   /// Names of the robot's bodies and of the obstacles, by the indices of TouchRecord; no obstacles:
   /// nothing is said of touches.
   std::vector<std::string> bodies, obstacles;

@@ -45,7 +45,8 @@ ReplaySetup SetupOf(WholeRobot robot, const std::vector<SimulatedObstacle>& obst
                     .model = {},
                     .relief = {},
                     .play = {},
-                    .control = {}};
+                    .control = {},
+                    .measures_tube = false};
   setup.model = PhysicsOf(setup.robot.model, options);
   setup.play = PlayOptionsOf(setup.robot.model);
   if (options.controller != "none") {

@@ -47,6 +47,7 @@ Simulation ReplaySetup::Robot(const SimulatedFloor& floor, const Disturbance& dr
 
 PlayOptions ReplaySetup::PlayOf(const Simulation& simulated, const ReferenceMotion& motion) const {
   PlayOptions options = play;
+  if (measures_tube) options.gauge = std::make_shared<TubeGauge>(robot.model, motion);
   if (!control) return options;
   const std::unique_ptr<control::TrackingController> controller =
       control->make({robot.model, model.stiffness});

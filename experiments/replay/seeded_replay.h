@@ -27,8 +27,9 @@ struct ReplaySetup {
   std::vector<SimulatedObstacle> obstacles;  ///< among which it walks
   ModelOptions model;                        ///< undisturbed
   FloorRelief relief;                        ///< of the floor, which seeds draw
-  PlayOptions play;                          ///< how it is played, but for its `control`
-  std::optional<ControlSetup> control;       ///< none: the servos get the plan itself
+  PlayOptions play;                     ///< how it is played, but for its `control` and `gauge`
+  std::optional<ControlSetup> control;  ///< none: the servos get the plan itself
+  bool measures_tube = false;           ///< whether PlayOptions::gauge is set
 
   /// The simulated robot, undisturbed. `floor` of ModelOptions is replaced.
   Simulation Robot(const SimulatedFloor& floor) const;

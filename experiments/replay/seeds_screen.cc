@@ -64,6 +64,7 @@ ordered_json JsonOf(const SeedsPlayed& played) {
     json["median"][told.key] = MedianOf(played.seeds, told.number);
     json["largest"][told.key] = LargestOf(played.seeds, told.number);
   }
+  if (played.tube) json["suggested_tube"] = SuggestedTubeJson(*played.tube);
   for (const SeedReplay& one : played.seeds) json["seeds"].push_back(JsonOf(one));
   return json;
 }
@@ -92,8 +93,17 @@ std::string SeedsText(const SeedsPlayed& played) {
             (one.unstable.empty() ? Formatted("FALLS at %.2f s\n", one.result.ended)
                                   : one.unstable + ", which counts as a fall\n");
   }
+  if (played.tube) text += SuggestedTubeText(played.method, *played.tube);
   return text;
 }
+
+std::vector<const ReplayResult*> ResultsOf(const std::vector<SeedReplay>& seeds) {
+  std::vector<const ReplayResult*> results;
+  for (const SeedReplay& one : seeds) results.push_back(&one.result);
+  return results;
+}
+
+std::string SeedsPlayedJson(const SeedsPlayed& played) { return JsonOf(played).dump(2); }
 
 std::string SeedsJson(const std::string& run, const std::vector<std::string>& notes,
                       const std::vector<SeedsPlayed>& all) {

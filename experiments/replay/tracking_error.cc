@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
+#include <utility>
 
+#include "experiments/replay/ranks.h"
 #include "wpg/elementary.h"
 #include "wpg/nth.h"
 
@@ -28,16 +31,11 @@ TrackingError TrackingErrorOf(const Simulation& robot, const ReferenceMotion& mo
 }
 
 TrackingErrors::TrackingErrors(const std::vector<TrackingError>& errors) {
-  if (errors.empty()) return;
-  constexpr double kMost = 0.95;
   for (double TrackingError::*const part : {&TrackingError::foot, &TrackingError::foot_yaw,
                                             &TrackingError::waist, &TrackingError::joint}) {
     std::vector<double> values;
     for (const TrackingError& error : errors) values.push_back(error.*part);
-    std::sort(values.begin(), values.end());
-    const auto rank = static_cast<size_t>(std::ceil(kMost * static_cast<double>(values.size())));
-    most.*part = values[rank - 1];
-    largest.*part = values.back();
+    std::tie(most.*part, largest.*part) = MostAndLargest(std::move(values));
   }
 }
 

@@ -21,6 +21,7 @@ from .experiment import Experiment, Plan
 from .extension import SmoothingProblem, SolverProblem, register_smoother, register_solver
 from .place import NotCovered, Robot, Scene
 from .program import OverlapProgram, Refinement
+from .replay import Measured, PlannedInstant, Replay
 from .result import Result
 from .run import Run, Verification
 from .tables import Table
@@ -29,7 +30,7 @@ from .walk import Certificate, MarginGradients, Sensitivities, Walk
 __version__: str = _halfstep.version
 
 __all__ = [
-    "Certificate", "Experiment", "InputError", "MarginGradients", "NotCovered",
-    "OverlapProgram", "Plan", "Refinement", "Result", "Robot", "Run", "Scene", "Sensitivities", "SmoothingProblem",
+    "Certificate", "Experiment", "InputError", "MarginGradients", "Measured", "NotCovered",
+    "OverlapProgram", "Plan", "PlannedInstant", "Refinement", "Replay", "Result", "Robot", "Run", "Scene", "Sensitivities", "SmoothingProblem",
     "SolveStopped", "SolverProblem", "Table", "Verification", "Walk", "configs", "load_config",
     "methods", "planners", "register_smoother", "register_solver", "robots", "scenes", "solvers"]

@@ -5,12 +5,14 @@ from __future__ import annotations
 import html
 import json
 import os
+from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
 from . import _halfstep
 from .config import load_config
 from .errors import InputError
 from .place import NotCovered
+from .replay import Replay, play
 from .tables import Table, of_file
 from .walk import number
 
@@ -115,6 +117,26 @@ class Run:
         if tolerance is not None and not 0.0 <= number("tolerance", tolerance) <= 1.0:
             raise InputError(f"tolerance: {tolerance} (valid: 0 ... 1 m)")
         return [Verification(*found) for found in _halfstep.verify(self.folder, name, tolerance)]
+
+    def replay(self, method: str, controller: str | Callable[[], Any] | None = None,
+               servos: Sequence[float] | None = None, ankle: Sequence[float] | None = None,
+               torque_limits: bool = False, seeds: int | None = None, sensor_delay: float = 0.005,
+               sensor_seed: int | None = None, suggest_tube: bool = False,
+               progress: Callable[[str, float], None] | None = None) -> Replay:
+        """Plays a method's walk on a simulated robot, as ``halfstep replay`` does with options of
+        these names.
+
+        ``controller``: None (servos get the plan itself), a name ("dcm"), or a function without
+        arguments, such as a class, that makes a controller of yours. It is called once for every
+        simulation. A controller has ``command(measured, then, next)``, which is called every 5 ms
+        with ``Measured``, and ``PlannedInstant`` for measured.t and for the end of the 5 ms that
+        begin, and returns joint angles [rad] and speeds [rad/s] for that end (2×6 each; left,
+        right). What it raises is raised here. ``servos``, ``ankle``: K [N m/rad], D [N m s/rad].
+        ``sensor_delay`` [s]. ``suggest_tube``: ``told`` has ``suggested_tube``.
+        """
+        self._place(method)
+        return play(self.folder, method, controller, servos, ankle, torque_limits, seeds,
+                    sensor_delay, sensor_seed, suggest_tube, progress)
 
     def show(self, height: int = 800) -> Any:
         """The report as something that a notebook displays; ``height`` in pixels. Needs IPython."""
