@@ -6,10 +6,10 @@ import { execFileSync, spawnSync } from "node:child_process";
 import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { faultsOf } from "./axe.mjs";
-import { Browser, hasBrowser, pause } from "./browser.mjs";
+import { all, faultsOf, once } from "./axe.mjs";
+import { Browser, flat, hasBrowser, pause } from "./browser.mjs";
 import { testByHand } from "./page_by_hand.mjs";
-import { testControls, testInfeasible, testPhoneInTheDark } from "./page_controls.mjs";
+import { testControls, testInfeasible, testPhoneInTheDark, testSaving } from "./page_controls.mjs";
 import { testVideo } from "./page_video.mjs";
 import { testVolumes } from "./page_volumes.mjs";
 import { countColours, partThatDiffers, readPng } from "./png.mjs";
@@ -135,6 +135,9 @@ async function testRun(browser) {
   assert.deepEqual(await browser.console(), [], "the console is empty");
   assert.deepEqual((await browser.requests()).filter((asked) => !asked.startsWith("chrome")), [url],
                    "nothing else is fetched");
+  assert.deepEqual(await faultsOf(browser, packages, once) ?? [], [], "serious and critical faults");
+  await testSaving(browser);
+  assert.deepEqual(await browser.console(), [], "the console is empty");
 }
 
 async function testComparison(browser) {
@@ -161,7 +164,7 @@ async function testAccess(browser) {
   for (const folder of ["low", "run", "comparison", "pareto"]) {
     await browser.load("about:blank");
     await browser.load(`file://${place}/${folder}/report.html`);
-    const faults = await faultsOf(browser, packages, folder === "run");
+    const faults = await faultsOf(browser, packages, ...(folder === "run" ? [all] : []));
     if (faults === null) return console.log("Without axe-core: faults of access are not looked for.");
     assert.deepEqual(faults, [], `${folder}: serious and critical faults`);
   }
@@ -193,8 +196,8 @@ try {
     process.exitCode = 77;
   } else {
     testOutlines();
-    for (const [flags, tests] of [[[], [testRun, testComparison, testEveryControl, testSliders, testVolumesOfPlan, testAccess, testVideoOfRun]],
-                                  [["--disable-3d-apis"], [testWithoutWebGl]]]) {
+    for (const [flags, tests] of [[[], [testRun, testVolumesOfPlan]],
+                                  [flat, [testWithoutWebGl, testComparison, testEveryControl, testSliders, testAccess, testVideoOfRun]]]) {
       const browser = await Browser.open(1366, 768, flags);
       try {
         for (const test of tests) await test(browser);
