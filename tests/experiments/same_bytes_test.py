@@ -28,7 +28,7 @@ COMMANDS = (
     ["run", f"{CONFIGS}/fig3_two_half_steps.yaml", "--out", "fig3", "--set",
      "smoothing.methods=[dichotomy, dichotomy/uniform, halfstep/barrier, halfstep/sqp]",
      "--set", "smoothing.optimizer.heights=true",
-     "--set", "smoothing.optimizer.rounds=2", "--set", "smoothing.optimizer.effort=2"],
+     "--set", "smoothing.optimizer.rounds=2", "--set", "smoothing.optimizer.effort=1"],
     ["run", f"{CONFIGS}/bar_8cm.yaml", "--out", "bar", "--set",
      "smoothing.methods=[dichotomy, reference/lipm]"],
     ["export", "bar", "--format", "hrpsys", "--out", "exported"],

@@ -54,7 +54,8 @@ def measured(halfstep, run, method, options):
 
 def cells_of(halfstep, config):
     """(config, method, replay) → measures."""
-    with tempfile.TemporaryDirectory() as run:
+    with tempfile.TemporaryDirectory() as folder:
+        run = f"{folder}/run"
         subprocess.run([halfstep, "run", ROOT / f"experiments/configs/{config}.yaml", "--out", run,
                         "--quiet", "--set", "smoothing.methods=[dichotomy, halfstep/sqp]"],
                        check=True)
