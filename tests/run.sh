@@ -4,7 +4,7 @@
 #   tests/run.sh --all     and debug with AddressSanitizer and UBSan, which leaves out a few slow
 #                          tests, a look for types that have two definitions (-flto -Wodr), and a
 #                          quick look by every fuzz target: before a change lands
-# JOBS: how many compilers at once (2), and one more test.
+# JOBS: how many compilers and tests at once (2).
 set -eu
 cd "$(dirname "$0")/.."
 jobs="${JOBS:-2}"
@@ -55,8 +55,7 @@ for preset in $presets; do
   built=$(date +%s)
   except='^$'
   [ "$preset" = release ] || except="$release_only"
-  # One more than cores: some tests wait by the clock.
-  quietly "build/$preset-test.log" ctest --preset "$preset" -j $((jobs + 1)) -E "$except" -LE slurm
+  quietly "build/$preset-test.log" ctest --preset "$preset" -j "$jobs" -E "$except" -LE slurm
   echo "$preset: $(grep 'tests passed' "build/$preset-test.log"); built in $((built - start)) s," \
     "tested in $(($(date +%s) - built)) s"
   grep -A 1000 'did not run' "build/$preset-test.log" || true  # tests that this machine cannot do
