@@ -10,7 +10,7 @@ int main() {
   const ExperimentConfig config = LoadConfig((DataFolder() / "configs/bar_8cm.yaml").string(),
                                              {{"smoothing.optimizer.heights", "true"},
                                               {"smoothing.optimizer.durations", "true"},
-                                              {"smoothing.optimizer.rounds", "2"}});
+                                              {"smoothing.optimizer.effort", "2"}});
   const WalkProblem problem = ProblemOf(Prepare(config));
   if (!opt::MakeSolver(solver)->available()) {
     std::printf("%s\n", opt::MakeSolver(solver)->WhyUnavailable().c_str());

@@ -33,7 +33,7 @@ int main() {
                                                {{"smoothing.optimizer.program", "smooth"},
                                                 {"smoothing.optimizer.heights", "true"},
                                                 {"smoothing.optimizer.weights.lift", weight},
-                                                {"smoothing.optimizer.rounds", "4"}},
+                                                {"smoothing.optimizer.effort", "1"}},
                                                {methods});
     const WalkProblem problem = ProblemOf(Prepare(config));
     SmoothingMonitor monitor;

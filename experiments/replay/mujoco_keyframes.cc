@@ -105,8 +105,7 @@ class KeyWriter {
 std::string MujocoKeyframes(const RobotModel& robot, const RobotTree& tree,
                             const std::vector<SimulatedObstacle>& obstacles,
                             const std::vector<JointMotion>& motion) {
-  ModelOptions options = PhysicsOf(robot);
-  options.obstacles_placed = true;
+  const ModelOptions options = PhysicsOf(robot);
   std::string text = MujocoModel(robot, tree, options, obstacles);
   text.resize(text.size() - kEnd.size());
   if (!obstacles.empty()) {

@@ -133,7 +133,7 @@ class Writer {
   // Moved from outside, by nothing else.
   void AddObstacle(size_t index) {
     std::string place;
-    if (const auto X = obstacles_[index].pose(0.0); options_.obstacles_placed && X) {
+    if (const auto X = obstacles_[index].pose(0.0)) {
       place = PlaceAttributes(*X);
     }
     text_ += "    <body mocap=\"true\"" + place + ">\n";

@@ -34,8 +34,6 @@ struct ModelOptions {
   /// Inertias by principal axes. MuJoCo finds these only so well that joint torques are off by
   /// 1e-7.
   bool principal_axes = false;
-  bool obstacles_placed =
-      false;  ///< where they are at t = 0; else at the origin until they are moved
   /// A passive bush between the last joint of each leg and all that it moves: hinges about the
   /// sole's y and x through the frame of that joint. None: the ankle is rigid.
   std::optional<JointSpring> ankle = {};

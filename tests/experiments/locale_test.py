@@ -56,7 +56,7 @@ def commands():
                 ["run", f"{CONFIGS}/fig3_two_half_steps.yaml", "--out", "fig3", "--set",
                  "smoothing.methods=[dichotomy, dichotomy/uniform, reference/lipm, ipopt, "
                  "nlopt/ccsaq, halfstep/sqp]", "--set", "smoothing.optimizer.heights=true",
-                 "--set", "smoothing.optimizer.rounds=3", "--set", "smoothing.optimizer.effort=2"],
+                 "--set", "smoothing.optimizer.rounds=1", "--set", "smoothing.optimizer.effort=0.5"],
                 ["run", *walk, "smoothing.methods=[dichotomy]", "--set",
                  "smoothing.margins.clearance_m=0.0045", "--out", "bar"],
                 ["smooth", "fig3", "--method", "dichotomy/uniform", "--given",

@@ -24,11 +24,12 @@ SIN = ("import math, random; random.seed(1); "
 TIME = re.compile(r"wall_s|processor_s|time_to_|^written$|^host$|sha256|^bytes$")  # columns and keys
 COMMANDS = (
     ["plan", f"{CONFIGS}/plan_bar_8cm.yaml", "--set", "planner.name=rrt", "--set",
-     "swept_volumes.cell_m=0.05", "--set", "swept_volumes.displacement_m=0.05"],
+     "swept_volumes.cell_m=0.05", "--set", "swept_volumes.displacement_m=0.05", "--set",
+     "planner.unimproved_nodes=0", "--set", "goal.radius_m=0.4"],  # a few steps over the bar
     ["run", f"{CONFIGS}/fig3_two_half_steps.yaml", "--out", "fig3", "--set",
      "smoothing.methods=[dichotomy, dichotomy/uniform, halfstep/barrier, halfstep/sqp]",
      "--set", "smoothing.optimizer.heights=true",
-     "--set", "smoothing.optimizer.rounds=2", "--set", "smoothing.optimizer.effort=2"],
+     "--set", "smoothing.optimizer.rounds=2", "--set", "smoothing.optimizer.effort=1"],
     ["run", f"{CONFIGS}/bar_8cm.yaml", "--out", "bar", "--set",
      "smoothing.methods=[dichotomy, reference/lipm]"],
     ["export", "bar", "--format", "hrpsys", "--out", "exported"],

@@ -4,8 +4,9 @@ import { join } from "node:path";
 
 const laptop = [1366, 768]; // [px]
 const telephone = [390, 844];
-const some = [["light", laptop], ["dark", telephone]];
-const all = [...some, ["dark", laptop], ["light", telephone]];
+export const once = [["light", laptop]];
+const some = [...once, ["dark", telephone]];
+export const all = [...some, ["dark", laptop], ["light", telephone]];
 
 const emulate = (browser, name, params) =>
   browser.send("POST", "/goog/cdp/execute", { cmd: `Emulation.${name}`, params });
@@ -16,16 +17,16 @@ async function show(browser, width, height, theme) {
 }
 
 /**
- * The serious and critical faults of the open page, a sentence each: on a laptop in the light and a
- * telephone in the dark, and the other way round, too, where it shall be looked at `thoroughly`.
- * `packages`: where axe-core is fetched to; null when it is not.
+ * The serious and critical faults of the open page, a sentence each: of `looks`, by default on a
+ * laptop in the light and a telephone in the dark. `packages`: where axe-core is fetched to; null
+ * when it is not.
  */
-export async function faultsOf(browser, packages, thoroughly = false) {
+export async function faultsOf(browser, packages, looks = some) {
   const path = join(packages, "node_modules/axe-core/axe.min.js");
   if (!existsSync(path)) return null;
   await browser.run(readFileSync(path, "utf8"));
   const found = [];
-  for (const [theme, [width, height]] of thoroughly ? all : some) {
+  for (const [theme, [width, height]] of looks) {
     await show(browser, width, height, theme);
     const faults = await browser.send("POST", "/execute/async", { args: [], script: `
       const done = arguments[0];

@@ -37,7 +37,6 @@ export async function testControls(browser, url) {
   assert.ok(!(await browser.run("return document.getElementById('help').open")));
   await browser.set("method-b", "0");
   await testPlots(browser);
-  await testSaving(browser);
 }
 
 /** Of a page that is open, with two walks. */
@@ -62,8 +61,8 @@ async function testPlots(browser) {
   await browser.set("camera", "feet");
 }
 
-// What the page saves, by the types and sizes of the files.
-async function testSaving(browser) {
+/** What an open page with a view saves, by the types and sizes of the files. */
+export async function testSaving(browser) {
   await browser.run(`window.saved = [];
     URL.createObjectURL = (blob) => { window.saved.push(blob); return "data:,"; };
     HTMLAnchorElement.prototype.click = function () {

@@ -5,6 +5,7 @@
 #include "experiments/config/data_folder.h"
 #include "smoothing/proof/certified_feasibility.h"
 #include "tests/scenarios/load_experiment.h"
+#include "tests/temporary_folder.h"
 
 namespace halfstep {
 namespace {
@@ -12,7 +13,10 @@ namespace {
 std::vector<std::string> ShippedPlans() {
   std::vector<std::string> names;
   for (const std::filesystem::path& path : YamlFiles(HALFSTEP_SOURCE_DIR "/experiments/configs")) {
-    if (!LoadConfig(path.string(), {}).footsteps.empty()) names.push_back(path.stem().string());
+    // Asked of the text: every test of this program lists these names when it begins.
+    if (ReadText(path).find("\nfootsteps:") != std::string::npos) {
+      names.push_back(path.stem().string());
+    }
   }
   return names;
 }
