@@ -10,7 +10,7 @@ namespace halfstep::control {
 Controllers Controllers::Standard() {
   Controllers controllers;
   controllers.Add("dcm", [](const ControlledRobot& robot) {
-    return std::make_unique<DcmController>(robot.model, DcmOptions{.stiffness = robot.stiffness});
+    return std::make_unique<DcmController>(robot.model, DcmOptions{.stiffness = robot.servos.stiffness, .damping = robot.servos.damping, .rotor = robot.rotor, .ankle = robot.ankle});
   });
   return controllers;
 }

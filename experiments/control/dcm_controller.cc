@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/control/small_turn.h"
 #include "experiments/control/sole_loads.h"
-#include "wpg/geometry/rotation.h"
 #include "wpg/nth.h"
 #include "wpg/robot/gravity.h"
 #include "wpg/robot/leg_ik.h"
@@ -34,9 +34,14 @@ void Approach(const Value& goal, double time, Value* value) {
   *value += kPeriod / (time + kPeriod) * (goal - *value);
 }
 
-Eigen::Matrix3d Turned(const Vector3d& turn) {
-  const double angle = turn.norm();
-  return angle > 0.0 ? AxisRotation(angle, turn / angle) : Eigen::Matrix3d::Identity();
+// Of the feet when servos are as stiff as stiff ones are.
+double StiffFoot(const RobotModel& robot) {
+  return kStiffFoot * robot.mass * kGravity * robot.com_height;
+}
+
+double FootStiffness(const RobotModel& robot, const DcmOptions& options) {
+  const double servo = std::max(options.stiffness < 1e9 ? options.stiffness : 0.0, options.yield * StiffFoot(robot));
+  return options.ankle ? 1.0 / (1.0 / servo + 1.0 / options.ankle->stiffness) : servo;
 }
 
 // The sole's turn (roll, pitch) that moves its pressure the way of a moment f·centre.
@@ -49,9 +54,10 @@ DcmController::DcmController(const RobotModel& robot, const DcmOptions& options)
     : robot_(robot),
       options_(options),
       omega_(std::sqrt(kGravity / robot.com_height)),
-      foot_stiffness_(std::isfinite(options.stiffness)
-                          ? options.stiffness
-                          : kStiffFoot * robot.mass * kGravity * robot.com_height) {}
+      foot_stiffness_(FootStiffness(robot, options)),
+      bushes_{AnkleBush(robot.legs[0], options.ankle), AnkleBush(robot.legs[1], options.ankle)},
+      planned_bushes_(bushes_),
+      servos_(options.stiffen * StiffFoot(robot) / options.stiffness - 1.0, options.servo_time) {}
 
 std::unique_ptr<TrackingController> DcmController::Clone() const {
   return std::make_unique<DcmController>(*this);
@@ -89,14 +95,32 @@ void DcmController::TurnSoles(const MeasuredState& measured, const PlannedState&
                             difference_ / options_.leak);
 }
 
-void DcmController::LevelFeet(const Vector3d& lean, const PlannedState& then,
-                              const PlannedState& next) {
+void DcmController::SenseBushes(const MeasuredState& measured, const PlannedState& then) {
+  const std::array<SoleLoad, 2> planned = SharedLoads(then, robot_.sole_size, then.zmp);
+  for (size_t s = 0; s < 2; ++s) {
+    const Vector2d ankle = bushes_[s].ankle().head<2>();
+    const auto moment = [&ankle](const SoleLoad& load) -> Vector2d {
+      const Vector2d arm = load.centre - ankle;
+      return load.force * Vector2d(arm.y(), -arm.x());
+    };
+    const Vector3d then_S = then.X_WSole[s].linear().transpose() * then.ankle_moments[s];
+    bushes_[s].Yield(then_S.head<2>() + moment(measured.loads[s]) - moment(planned[s]), kPeriod);
+  }
+}
+
+void DcmController::HoldFeet(const EstimatedState& state, const PlannedState& then,
+                             const PlannedState& next) {
+  const Isometry3d X_PlanIs = then.X_WB * state.X_WB.inverse();  // from where it is to the plan
   for (size_t s = 0; s < 2; ++s) {
     const bool flies = !then.stands[s] && !next.stands[s];
-    const Vector3d arm = then.X_WSole[s].translation() - then.X_WB.translation();
-    const Vector3d turn = flies ? Vector3d(options_.level * lean) : Vector3d(0, 0, 0);
-    Approach<Vector3d>(-turn, flies ? kFollow : kForget, &feet_[s].level);
-    Approach(-turn.cross(arm).z(), flies ? kFollow : kForget, &feet_[s].lift);
+    Vector3d turn(0, 0, 0), shift(0, 0, 0);
+    if (flies) {
+      const Vector3d place = then.X_WSole[s].translation();
+      turn = options_.level * SmallTurnOf(X_PlanIs.linear());
+      shift = options_.level * (X_PlanIs * place - place);
+    }
+    Approach<Vector3d>(turn, flies ? options_.follow : kForget, &feet_[s].turn);
+    Approach<Vector3d>(shift, flies ? options_.follow : kForget, &feet_[s].shift);
   }
 }
 
@@ -126,20 +150,26 @@ std::array<Vector6d, 2> DcmController::Bent(const PlannedState& next) const {
     Vector3d tilt(0, 0, 0);
     tilt.head<2>() = foot.tilt + foot.at_once;
     Isometry3d X_WSole = next.X_WSole[s];
-    X_WSole.translation().z() += foot.lift + (s == 0 ? -0.5 : 0.5) * difference_;
-    X_WSole.linear() = Turned(foot.level) * X_WSole.linear() * Turned(tilt);
+    X_WSole.translation() += foot.shift;
+    X_WSole.translation().z() += (s == 0 ? -0.5 : 0.5) * difference_;
+    X_WSole.linear() = Turned(foot.turn) * X_WSole.linear();
+    const Vector3d& ankle = bushes_[s].ankle();
+    Isometry3d T = Isometry3d::Identity(); T.linear() = Turned(tilt); if (int(options_.base) & 4) T.translation() = ankle - T.linear() * ankle;
+    X_WSole = X_WSole * T;
+    if (int(options_.base) & 1) X_WSole = X_WSole * planned_bushes_[s].X_RestSole().inverse();
     const Leg& leg = robot_.legs[s];
     const LegIkSolution plain = SolveLegIk(leg, next.X_WB.inverse() * next.X_WSole[s]);
     const LegIkSolution moved = SolveLegIk(leg, X_WB.inverse() * X_WSole);
     if (plain.status != LegIkStatus::kSolved || moved.status != LegIkStatus::kSolved) continue;
-    bent[s] = moved.q - plain.q + next.torques[s] / options_.stiffness;
+    bent[s] = moved.q - plain.q;
   }
   return bent;
 }
 
 JointCommand DcmController::Command(const MeasuredState& measured, const PlannedState& then,
                                     const PlannedState& next) {
-  const EstimatedState state = EstimateState(robot_, measured, then);
+  if (int(options_.base) & 2) SenseBushes(measured, then);
+  const EstimatedState state = EstimateState(robot_, measured, then, bushes_);
   SenseError(state, then);
   const auto nearest = [&](const Vector2d& p) {
     return NearestInSupport(then, robot_.sole_size, options_.inset, p);
@@ -148,16 +178,28 @@ JointCommand DcmController::Command(const MeasuredState& measured, const Planned
   const Vector2d zmp = nearest(then.zmp + (1.0 + options_.gain) * error_);
   TurnSoles(measured, then, SharedLoads(then, robot_.sole_size, zmp),
             SharedLoads(then, robot_.sole_size, planned));
-  // How far B's z leans from that of W, as a turn.
-  LevelFeet(Vector3d::UnitZ().cross(state.X_WB.linear().col(2)), then, next);
+  HoldFeet(state, then, next);
   ShiftWaist(measured, then, zmp);
-  const std::array<Vector6d, 2> bent = Bent(next);
+  for (size_t s = 0; s < 2; ++s) {
+    const Vector3d moment = next.X_WSole[s].linear().transpose() * next.ankle_moments[s];
+    planned_bushes_[s].Yield(moment.head<2>(), kPeriod);
+  }
+  bent_ = Bent(next);
+  const std::array<Vector6d, 2>& feedback = servos_.After(measured, next.t, then.q);
   JointCommand command{next.q, next.speeds};
   for (size_t s = 0; s < 2; ++s) {
-    command.q[s] += bent[s];
-    if (begun_) command.speeds[s] += (bent[s] - bent_[s]) / kPeriod;
+    command.q[s] += bent_[s];
   }
-  bent_ = bent;
+  servos_.Note(next.t, command.q);
+  for (size_t s = 0; s < 2; ++s) {
+    const Vector6d torques = next.torques[s] + options_.rotor * next.accelerations[s];
+    // K x + D ẋ is the torque.
+    Approach<Vector6d>(torques / options_.stiffness, options_.damping / options_.stiffness, &sag_[s]);
+    const Vector6d added = bent_[s] + sag_[s] + feedback[s];
+    command.q[s] += added - bent_[s];
+    if (begun_) command.speeds[s] += (added - added_[s]) / kPeriod;
+    added_[s] = added;
+  }
   begun_ = true;
   return command;
 }

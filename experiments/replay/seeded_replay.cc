@@ -49,7 +49,10 @@ PlayOptions ReplaySetup::PlayOf(const Simulation& simulated, const ReferenceMoti
   PlayOptions options = play;
   if (!control) return options;
   const std::unique_ptr<control::TrackingController> controller =
-      control->make({robot.model, model.stiffness});
+      control->make({.model = robot.model,
+                     .servos = {model.stiffness, model.damping},
+                     .rotor = model.armature,
+                     .ankle = model.ankle});
   options.control = std::make_shared<ControlLoop>(
       std::make_shared<PlannedStates>(robot.model, motion), *controller,
       control::Sensors(control->sensors, simulated.weight()));
