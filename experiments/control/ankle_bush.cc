@@ -17,10 +17,7 @@ void AnkleBush::Yield(const Eigen::Vector2d& moment, double time) {
 
 Eigen::Isometry3d AnkleBush::X_RestSole(double after) const {
   const Eigen::Vector2d turn = turn_ + after * speed_;
-  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
-  X.linear() = Turned({turn.x(), turn.y(), 0.0});
-  X.translation() = ankle_ - X.linear() * ankle_;
-  return X;
+  return TurnedAbout(ankle_, {turn.x(), turn.y(), 0.0});
 }
 
 }  // namespace halfstep::control

@@ -15,8 +15,7 @@ namespace halfstep::control {
 /// What a controller may know of the robot that it is made for.
 struct ControlledRobot {
   const RobotModel& model;  ///< borrowed by the controller; its masses are known
-  JointSpring servos = {};  ///< of the legs' joints
-  double rotor = 0.0;       ///< inertia of their rotors at the joints [kg m²]
+  JointSpring servos;       ///< of the legs' joints
   /// Passive bushes between the legs' last joints and the feet, about the soles' x and y.
   std::optional<JointSpring> ankle = {};
 };

@@ -39,8 +39,14 @@ double StiffFoot(const RobotModel& robot) {
   return kStiffFoot * robot.mass * kGravity * robot.com_height;
 }
 
+// Of the legs' servos; where it is not known, that of stiff ones.
+double ServoStiffness(const RobotModel& robot, const DcmOptions& options) {
+  return std::isfinite(options.stiffness) ? options.stiffness : StiffFoot(robot);
+}
+
+// Of servo and bush, one behind the other.
 double FootStiffness(const RobotModel& robot, const DcmOptions& options) {
-  const double servo = std::max(options.stiffness < 1e9 ? options.stiffness : 0.0, options.yield * StiffFoot(robot));
+  const double servo = ServoStiffness(robot, options);
   return options.ankle ? 1.0 / (1.0 / servo + 1.0 / options.ankle->stiffness) : servo;
 }
 
@@ -54,10 +60,11 @@ DcmController::DcmController(const RobotModel& robot, const DcmOptions& options)
     : robot_(robot),
       options_(options),
       omega_(std::sqrt(kGravity / robot.com_height)),
+      leg_stiffness_(ServoStiffness(robot, options)),
       foot_stiffness_(FootStiffness(robot, options)),
       bushes_{AnkleBush(robot.legs[0], options.ankle), AnkleBush(robot.legs[1], options.ankle)},
       planned_bushes_(bushes_),
-      servos_(options.stiffen * StiffFoot(robot) / options.stiffness - 1.0, options.servo_time) {}
+      errors_(options.stiffen * StiffFoot(robot) / options.stiffness - 1.0, options.servo_time) {}
 
 std::unique_ptr<TrackingController> DcmController::Clone() const {
   return std::make_unique<DcmController>(*this);
@@ -91,7 +98,7 @@ void DcmController::TurnSoles(const MeasuredState& measured, const PlannedState&
   const double lever = kLegLever * robot_.com_height;
   const double missing =
       (wanted[0].force - wanted[1].force) - (measured.loads[0].force - measured.loads[1].force);
-  difference_ += kPeriod * (missing * lever * lever / (foot_stiffness_ * options_.force_time) -
+  difference_ += kPeriod * (missing * lever * lever / (leg_stiffness_ * options_.force_time) -
                             difference_ / options_.leak);
 }
 
@@ -153,10 +160,8 @@ std::array<Vector6d, 2> DcmController::Bent(const PlannedState& next) const {
     X_WSole.translation() += foot.shift;
     X_WSole.translation().z() += (s == 0 ? -0.5 : 0.5) * difference_;
     X_WSole.linear() = Turned(foot.turn) * X_WSole.linear();
-    const Vector3d& ankle = bushes_[s].ankle();
-    Isometry3d T = Isometry3d::Identity(); T.linear() = Turned(tilt); if (int(options_.base) & 4) T.translation() = ankle - T.linear() * ankle;
-    X_WSole = X_WSole * T;
-    if (int(options_.base) & 1) X_WSole = X_WSole * planned_bushes_[s].X_RestSole().inverse();
+    X_WSole =
+        X_WSole * TurnedAbout(bushes_[s].ankle(), tilt) * planned_bushes_[s].X_RestSole().inverse();
     const Leg& leg = robot_.legs[s];
     const LegIkSolution plain = SolveLegIk(leg, next.X_WB.inverse() * next.X_WSole[s]);
     const LegIkSolution moved = SolveLegIk(leg, X_WB.inverse() * X_WSole);
@@ -168,7 +173,7 @@ std::array<Vector6d, 2> DcmController::Bent(const PlannedState& next) const {
 
 JointCommand DcmController::Command(const MeasuredState& measured, const PlannedState& then,
                                     const PlannedState& next) {
-  if (int(options_.base) & 2) SenseBushes(measured, then);
+  SenseBushes(measured, then);
   const EstimatedState state = EstimateState(robot_, measured, then, bushes_);
   SenseError(state, then);
   const auto nearest = [&](const Vector2d& p) {
@@ -180,23 +185,24 @@ JointCommand DcmController::Command(const MeasuredState& measured, const Planned
             SharedLoads(then, robot_.sole_size, planned));
   HoldFeet(state, then, next);
   ShiftWaist(measured, then, zmp);
+  return Bend(measured, next);
+}
+
+JointCommand DcmController::Bend(const MeasuredState& measured, const PlannedState& next) {
   for (size_t s = 0; s < 2; ++s) {
     const Vector3d moment = next.X_WSole[s].linear().transpose() * next.ankle_moments[s];
     planned_bushes_[s].Yield(moment.head<2>(), kPeriod);
+    // K x + D ẋ is the torque.
+    Approach<Vector6d>(next.torques[s] / options_.stiffness, options_.damping / options_.stiffness,
+                       &sag_[s]);
   }
   bent_ = Bent(next);
-  const std::array<Vector6d, 2>& feedback = servos_.After(measured, next.t, then.q);
+  const std::array<Vector6d, 2>& errors = errors_.Integrated(measured, next.t);
+  errors_.Note(next.t, {next.q[0] + bent_[0], next.q[1] + bent_[1]});
   JointCommand command{next.q, next.speeds};
   for (size_t s = 0; s < 2; ++s) {
-    command.q[s] += bent_[s];
-  }
-  servos_.Note(next.t, command.q);
-  for (size_t s = 0; s < 2; ++s) {
-    const Vector6d torques = next.torques[s] + options_.rotor * next.accelerations[s];
-    // K x + D ẋ is the torque.
-    Approach<Vector6d>(torques / options_.stiffness, options_.damping / options_.stiffness, &sag_[s]);
-    const Vector6d added = bent_[s] + sag_[s] + feedback[s];
-    command.q[s] += added - bent_[s];
+    const Vector6d added = bent_[s] + sag_[s] + errors[s];
+    command.q[s] += added;
     if (begun_) command.speeds[s] += (added - added_[s]) / kPeriod;
     added_[s] = added;
   }

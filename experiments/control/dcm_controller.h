@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <limits>
 
-#include "experiments/control/joint_feedback.h"
+#include "experiments/control/joint_errors.h"
 #include "experiments/control/state_estimate.h"
 #include "experiments/control/tracking_controller.h"
 
@@ -15,8 +15,8 @@ struct DcmOptions {
   /// Of its servos, as its maker states it [N m/rad]; ∞: not known, then nothing is fed forward and
   /// ankles give way as those of stiff servos have to. Too large: they give way too slowly.
   double stiffness = std::numeric_limits<double>::infinity();
-  double damping = 0.0;  ///< of the same [N m s/rad]
-  double rotor = 0.0;  ///< inertia of the servos' rotors at the joints [kg m²]; 0: not known
+  /// Of its servos [N m s/rad]; not known: what is fed forward comes too early by D/K.
+  double damping = 0.0;
   /// Bushes above the feet; none: there are none, or they are not known.
   std::optional<JointSpring> ankle = {};
   /// k: the DCM's error decays by e^(−kωt) where the soles are wide enough. Below 0 it grows.
@@ -33,11 +33,12 @@ struct DcmOptions {
   /// Of how the waist is off its plan, the share by which a foot in the air is held against it.
   double level = 1.0;
   double follow = 0.03;  ///< time constant of that [s]
-  double servo_time = 0.025;  ///< of the integral of soft servos' errors [s]
+  /// Joints' errors are integrated until servos are at rest as stiff as this share of stiff ones.
+  double stiffen = 0.5;
+  double servo_time = 0.025;  ///< of that integral [s]
   /// Speed of the waist for each metre that the ZMP is off [1/s]. 2: larger pushes are survived,
   /// and the ZMP is off five times as far without a push.
   double waist_rate = 0.0;
-  double stiffen = 1.0, yield = 1.0, base = 7.0;
 };
 
 /// Follows a plan as the field's stabilizers do: feedback of the divergent component of motion
@@ -72,10 +73,12 @@ class DcmController final : public TrackingController {
                   const Eigen::Vector2d& zmp);
   // How far joints shall be from the plan.
   std::array<Vector6d, 2> Bent(const PlannedState& next) const;
+  JointCommand Bend(const MeasuredState& measured, const PlannedState& next);
 
   const RobotModel& robot_;
   DcmOptions options_;
   double omega_;           // [1/s]
+  double leg_stiffness_;   // of its servos [N m/rad]
   double foot_stiffness_;  // moment of a sole on the floor for each radian [N m/rad]
   bool begun_ = false;
   Eigen::Vector2d error_{0, 0};  // of the DCM [m]
@@ -83,8 +86,8 @@ class DcmController final : public TrackingController {
   double difference_ = 0.0;      // of the legs' lengths, left less right [m]
   std::array<FootOffset, 2> feet_;
   std::array<AnkleBush, 2> bushes_, planned_bushes_;  // by what was measured, by the plan
-  JointFeedback servos_;
-  std::array<Vector6d, 2> sag_{Vector6d::Zero(), Vector6d::Zero()};  // of the servos [rad]
+  JointErrors errors_;
+  std::array<Vector6d, 2> sag_{Vector6d::Zero(), Vector6d::Zero()};  // of the servos, planned [rad]
   std::array<Vector6d, 2> bent_{Vector6d::Zero(), Vector6d::Zero()};   // Bent(), of the last time
   std::array<Vector6d, 2> added_{Vector6d::Zero(), Vector6d::Zero()};  // to the plan, likewise
 };

@@ -76,12 +76,10 @@ PlannedStates::Whole PlannedStates::WholeOf(const RobotModel& robot,
     const auto s = static_cast<size_t>(Index(side));
     const Vector6d on_foot = loads.On(side, dynamics.contact());
     whole.torques[s] = LegTorques(dynamics, side, on_foot);
-    whole.accelerations[s] = dynamics.accelerations(side);
     const Vector6d on_ankle = on_foot - dynamics.leg(side)[5].force;
     const Eigen::Vector3d ankle =
         row.X_WB() * LegForwardKinematics(robot.legs[s], row.q[s])[5].translation();
-    whole.ankle_moments[s] =
-        on_ankle.head<3>() - (ankle - dynamics.O()).cross(on_ankle.tail<3>());
+    whole.ankle_moments[s] = on_ankle.head<3>() - (ankle - dynamics.O()).cross(on_ankle.tail<3>());
   }
   return whole;
 }
@@ -105,7 +103,6 @@ control::PlannedState PlannedStates::At(double t) const {
   for (size_t s = 0; s < 2; ++s) {
     state.X_WSole[s] = TrajectoryRow::Upright(row.soles[s]);
     state.torques[s] = a.torques[s] + x * (b.torques[s] - a.torques[s]);
-    state.accelerations[s] = a.accelerations[s] + x * (b.accelerations[s] - a.accelerations[s]);
     state.ankle_moments[s] = Between(x, a.ankle_moments[s], b.ankle_moments[s]);
   }
   state.com = Between(x, a.com, b.com);

@@ -48,11 +48,8 @@ Simulation ReplaySetup::Robot(const SimulatedFloor& floor, const Disturbance& dr
 PlayOptions ReplaySetup::PlayOf(const Simulation& simulated, const ReferenceMotion& motion) const {
   PlayOptions options = play;
   if (!control) return options;
-  const std::unique_ptr<control::TrackingController> controller =
-      control->make({.model = robot.model,
-                     .servos = {model.stiffness, model.damping},
-                     .rotor = model.armature,
-                     .ankle = model.ankle});
+  const std::unique_ptr<control::TrackingController> controller = control->make(
+      {.model = robot.model, .servos = {model.stiffness, model.damping}, .ankle = model.ankle});
   options.control = std::make_shared<ControlLoop>(
       std::make_shared<PlannedStates>(robot.model, motion), *controller,
       control::Sensors(control->sensors, simulated.weight()));
