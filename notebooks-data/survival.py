@@ -98,21 +98,18 @@ def tables(path):
                          f"{100 * float(row['edge_share']):.0f}{touch}")
         line([f"`{walk}`", f"{float(duration):.2f}", *cells])
     print()
-    line(["walk", "robot", "tilt [deg]", *(f"{part} [{unit}]" for part, (_, _, unit)
-                                           in PARTS.items())])
-    line(["---"] * (3 + len(PARTS)))
+    line(["walk", *ROBOTS])
+    line(["---"] * (1 + len(ROBOTS)))
     for walk, _ in walks:
+        cells = []
         for robot in ROBOTS:
             row = of[walk, robot]
-            cells = [f"`{walk}`" if robot == "ideal" else "", robot]
-            if row["undisturbed_stands"] == "1":
-                cells.append(f"{float(row['undisturbed_tilt_deg']):.1f}")
-                cells += [f"{float(row[f'{part}_most_{unit}']):.1f}, "
-                          f"{float(row[f'{part}_largest_{unit}']):.1f}"
-                          for part, (_, _, unit) in PARTS.items()]
-            else:
-                cells += ["falls", "", "", ""]
-            line(cells)
+            parts = [f"{float(row['undisturbed_tilt_deg']):.2f}"]
+            parts += [f"{float(row[f'{part}_most_{unit}']):.1f}, "
+                      f"{float(row[f'{part}_largest_{unit}']):.1f}"
+                      for part, (_, _, unit) in PARTS.items()]
+            cells.append("; ".join(parts) if row["undisturbed_stands"] == "1" else "falls")
+        line([f"`{walk}`", *cells])
 
 
 def main():

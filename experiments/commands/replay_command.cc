@@ -207,8 +207,8 @@ ExitStatus ReplayOnce(const Telling& telling, const std::vector<std::vector<doub
     if (command.push && replayed.result.stayed_up) {
       ProgressBar bar("pushes of " + replayed.method, !telling.screen());
       replayed.pushes = replay::FindPushLimits(
-          simulation, motion, options, {}, push_at[i], [&bar](double done) { bar.Update(done); },
-          interrupt.token());
+          simulation, motion, options, {.directions = command.push_directions}, push_at[i],
+          [&bar](double done) { bar.Update(done); }, interrupt.token());
     }
     if (interrupt.requested()) return kInterrupted;
     if (telling.screen()) std::cout << replay::ReplayText(replayed);
@@ -309,6 +309,8 @@ CommandAction DeclareReplay(CLI::App* app, const Toolbox& tools) {
       "--seeds", texts->seeds,
       "play each walk so often, with friction, contacts, stiffness, CoM and a push drawn");
   app->add_flag("--push", command->push, "find the largest push that each walk survives");
+  app->add_option("--push-directions", command->push_directions, "of pushes: 4 (default) or 8")
+      ->check(CLI::IsMember({4, 8}));
   app->add_option("--push-at", command->push_at, "instants of the push [s]");
   app->add_option(
       "--controller", command->controller,
