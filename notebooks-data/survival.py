@@ -43,7 +43,7 @@ def replayed(halfstep, method, run, options):
     """What `halfstep replay` says of the run's walk; falls are no failure here."""
     command = [halfstep, "replay", run, "--method", method, "--json", *options]
     out = subprocess.run(command, stdout=subprocess.PIPE, check=False)
-    if out.returncode not in (0, 1):
+    if out.returncode not in (0, 1) or not out.stdout:
         sys.exit(f"{' '.join(command)}: exit status {out.returncode}")
     return json.loads(out.stdout)["methods"][0]
 
