@@ -15,7 +15,8 @@ struct DcmOptions {
   /// Of its servos, as its maker states it [N m/rad]; ∞: not known, then nothing is fed forward and
   /// ankles give way as those of stiff servos have to. Too large: they give way too slowly.
   double stiffness = std::numeric_limits<double>::infinity();
-  /// Of its servos [N m s/rad]; 0, not known: what is fed forward asks for too much when it changes.
+  /// Of its servos [N m s/rad]; 0, not known: what is fed forward asks for too much when it
+  /// changes.
   double damping = 0.0;
   /// Bushes above the feet; none: there are none, or they are not known.
   std::optional<JointSpring> ankle = {};
