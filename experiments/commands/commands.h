@@ -123,6 +123,7 @@ struct ReplayCommand {
   std::string run;  ///< folder of a run or of an episode
   std::optional<std::string> method;
   bool push = false;                 ///< finds the largest push that is survived
+  int push_directions = 4;           ///< of pushes, evenly around: 4 or 8
   std::vector<double> push_at;       ///< instants [s]; none: a quarter, half, three quarters
   ReplayConfig robot;                ///< servos, ankles and torque limits; its seeds count not
   std::optional<std::string> floor;  ///< as ParseRelief() takes it; none: level

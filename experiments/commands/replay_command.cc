@@ -197,7 +197,8 @@ ExitStatus ReplayOnce(const Telling& telling, const std::vector<std::vector<doub
       const replay::Simulation simulation = replay::RobotOfOnce(task.setup, motion);
       ProgressBar bar("pushes of " + replayed.method, !telling.screen());
       replayed.pushes = replay::FindPushLimits(
-          simulation, motion, task.setup.PlayOf(simulation, motion), {}, push_at[i],
+          simulation, motion, task.setup.PlayOf(simulation, motion),
+          {.directions = command.push_directions}, push_at[i],
           [&bar](double done) { bar.Update(done); }, interrupt.token());
     }
     if (interrupt.requested()) return kInterrupted;
@@ -303,6 +304,8 @@ CommandAction DeclareReplay(CLI::App* app, const Toolbox& tools) {
       "--seeds", texts->seeds,
       "play each walk so often, with friction, contacts, stiffness, CoM and a push drawn");
   app->add_flag("--push", command->push, "find the largest push that each walk survives");
+  app->add_option("--push-directions", command->push_directions, "of pushes: 4 (default) or 8")
+      ->check(CLI::IsMember({4, 8}));
   app->add_option("--push-at", command->push_at, "instants of the push [s]");
   app->add_option(
       "--controller", command->controller,

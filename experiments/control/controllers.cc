@@ -10,7 +10,9 @@ namespace halfstep::control {
 Controllers Controllers::Standard() {
   Controllers controllers;
   controllers.Add("dcm", [](const ControlledRobot& robot) {
-    return std::make_unique<DcmController>(robot.model, DcmOptions{.stiffness = robot.stiffness});
+    const DcmOptions known{
+        .stiffness = robot.servos.stiffness, .damping = robot.servos.damping, .ankle = robot.ankle};
+    return std::make_unique<DcmController>(robot.model, known);
   });
   return controllers;
 }

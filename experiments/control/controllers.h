@@ -3,9 +3,11 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "experiments/control/joint_spring.h"
 #include "experiments/control/tracking_controller.h"
 
 namespace halfstep::control {
@@ -13,7 +15,9 @@ namespace halfstep::control {
 /// What a controller may know of the robot that it is made for.
 struct ControlledRobot {
   const RobotModel& model;  ///< borrowed by the controller; its masses are known
-  double stiffness = 0.0;   ///< of its servos [N m/rad]
+  JointSpring servos;       ///< of the legs' joints
+  /// Passive bushes between the legs' last joints and the feet, about the soles' x and y.
+  std::optional<JointSpring> ankle = {};
 };
 
 /// Makes a controller of a robot.

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/control/small_turn.h"
 #include "experiments/control/sole_loads.h"
-#include "wpg/geometry/rotation.h"
 #include "wpg/nth.h"
 #include "wpg/robot/gravity.h"
 #include "wpg/robot/leg_ik.h"
@@ -34,9 +34,20 @@ void Approach(const Value& goal, double time, Value* value) {
   *value += kPeriod / (time + kPeriod) * (goal - *value);
 }
 
-Eigen::Matrix3d Turned(const Vector3d& turn) {
-  const double angle = turn.norm();
-  return angle > 0.0 ? AxisRotation(angle, turn / angle) : Eigen::Matrix3d::Identity();
+// Of the feet when servos are as stiff as stiff ones are.
+double StiffFoot(const RobotModel& robot) {
+  return kStiffFoot * robot.mass * kGravity * robot.com_height;
+}
+
+// Of the legs' servos; where it is not known, that of stiff ones.
+double ServoStiffness(const RobotModel& robot, const DcmOptions& options) {
+  return std::isfinite(options.stiffness) ? options.stiffness : StiffFoot(robot);
+}
+
+// Of servo and bush, one behind the other.
+double FootStiffness(const RobotModel& robot, const DcmOptions& options) {
+  const double servo = ServoStiffness(robot, options);
+  return options.ankle ? 1.0 / (1.0 / servo + 1.0 / options.ankle->stiffness) : servo;
 }
 
 // The sole's turn (roll, pitch) that moves its pressure the way of a moment f·centre.
@@ -49,9 +60,11 @@ DcmController::DcmController(const RobotModel& robot, const DcmOptions& options)
     : robot_(robot),
       options_(options),
       omega_(std::sqrt(kGravity / robot.com_height)),
-      foot_stiffness_(std::isfinite(options.stiffness)
-                          ? options.stiffness
-                          : kStiffFoot * robot.mass * kGravity * robot.com_height) {}
+      leg_stiffness_(ServoStiffness(robot, options)),
+      foot_stiffness_(FootStiffness(robot, options)),
+      bushes_{AnkleBush(robot.legs[0], options.ankle), AnkleBush(robot.legs[1], options.ankle)},
+      planned_bushes_(bushes_),
+      errors_(options.stiffen * StiffFoot(robot) / options.stiffness - 1.0, options.servo_time) {}
 
 std::unique_ptr<TrackingController> DcmController::Clone() const {
   return std::make_unique<DcmController>(*this);
@@ -85,18 +98,36 @@ void DcmController::TurnSoles(const MeasuredState& measured, const PlannedState&
   const double lever = kLegLever * robot_.com_height;
   const double missing =
       (wanted[0].force - wanted[1].force) - (measured.loads[0].force - measured.loads[1].force);
-  difference_ += kPeriod * (missing * lever * lever / (foot_stiffness_ * options_.force_time) -
+  difference_ += kPeriod * (missing * lever * lever / (leg_stiffness_ * options_.force_time) -
                             difference_ / options_.leak);
 }
 
-void DcmController::LevelFeet(const Vector3d& lean, const PlannedState& then,
-                              const PlannedState& next) {
+void DcmController::SenseBushes(const MeasuredState& measured, const PlannedState& then) {
+  const std::array<SoleLoad, 2> planned = SharedLoads(then, robot_.sole_size, then.zmp);
+  for (size_t s = 0; s < 2; ++s) {
+    const Vector2d ankle = bushes_[s].ankle().head<2>();
+    const auto moment = [&ankle](const SoleLoad& load) -> Vector2d {
+      const Vector2d arm = load.centre - ankle;
+      return load.force * Vector2d(arm.y(), -arm.x());
+    };
+    const Vector3d then_S = then.X_WSole[s].linear().transpose() * then.ankle_moments[s];
+    bushes_[s].Yield(then_S.head<2>() + moment(measured.loads[s]) - moment(planned[s]), kPeriod);
+  }
+}
+
+void DcmController::HoldFeet(const EstimatedState& state, const PlannedState& then,
+                             const PlannedState& next) {
+  const Isometry3d X_PlanIs = then.X_WB * state.X_WB.inverse();  // from where it is to the plan
   for (size_t s = 0; s < 2; ++s) {
     const bool flies = !then.stands[s] && !next.stands[s];
-    const Vector3d arm = then.X_WSole[s].translation() - then.X_WB.translation();
-    const Vector3d turn = flies ? Vector3d(options_.level * lean) : Vector3d(0, 0, 0);
-    Approach<Vector3d>(-turn, flies ? kFollow : kForget, &feet_[s].level);
-    Approach(-turn.cross(arm).z(), flies ? kFollow : kForget, &feet_[s].lift);
+    Vector3d turn(0, 0, 0), shift(0, 0, 0);
+    if (flies) {
+      const Vector3d place = then.X_WSole[s].translation();
+      turn = options_.level * SmallTurnOf(X_PlanIs.linear());
+      shift = options_.level * (X_PlanIs * place - place);
+    }
+    Approach<Vector3d>(turn, flies ? options_.follow : kForget, &feet_[s].turn);
+    Approach<Vector3d>(shift, flies ? options_.follow : kForget, &feet_[s].shift);
   }
 }
 
@@ -126,20 +157,24 @@ std::array<Vector6d, 2> DcmController::Bent(const PlannedState& next) const {
     Vector3d tilt(0, 0, 0);
     tilt.head<2>() = foot.tilt + foot.at_once;
     Isometry3d X_WSole = next.X_WSole[s];
-    X_WSole.translation().z() += foot.lift + (s == 0 ? -0.5 : 0.5) * difference_;
-    X_WSole.linear() = Turned(foot.level) * X_WSole.linear() * Turned(tilt);
+    X_WSole.translation() += foot.shift;
+    X_WSole.translation().z() += (s == 0 ? -0.5 : 0.5) * difference_;
+    X_WSole.linear() = Turned(foot.turn) * X_WSole.linear();
+    X_WSole =
+        X_WSole * TurnedAbout(bushes_[s].ankle(), tilt) * planned_bushes_[s].X_RestSole().inverse();
     const Leg& leg = robot_.legs[s];
     const LegIkSolution plain = SolveLegIk(leg, next.X_WB.inverse() * next.X_WSole[s]);
     const LegIkSolution moved = SolveLegIk(leg, X_WB.inverse() * X_WSole);
     if (plain.status != LegIkStatus::kSolved || moved.status != LegIkStatus::kSolved) continue;
-    bent[s] = moved.q - plain.q + next.torques[s] / options_.stiffness;
+    bent[s] = moved.q - plain.q;
   }
   return bent;
 }
 
 JointCommand DcmController::Command(const MeasuredState& measured, const PlannedState& then,
                                     const PlannedState& next) {
-  const EstimatedState state = EstimateState(robot_, measured, then);
+  SenseBushes(measured, then);
+  const EstimatedState state = EstimateState(robot_, measured, then, bushes_);
   SenseError(state, then);
   const auto nearest = [&](const Vector2d& p) {
     return NearestInSupport(then, robot_.sole_size, options_.inset, p);
@@ -148,16 +183,29 @@ JointCommand DcmController::Command(const MeasuredState& measured, const Planned
   const Vector2d zmp = nearest(then.zmp + (1.0 + options_.gain) * error_);
   TurnSoles(measured, then, SharedLoads(then, robot_.sole_size, zmp),
             SharedLoads(then, robot_.sole_size, planned));
-  // How far B's z leans from that of W, as a turn.
-  LevelFeet(Vector3d::UnitZ().cross(state.X_WB.linear().col(2)), then, next);
+  HoldFeet(state, then, next);
   ShiftWaist(measured, then, zmp);
-  const std::array<Vector6d, 2> bent = Bent(next);
+  return Bend(measured, next);
+}
+
+JointCommand DcmController::Bend(const MeasuredState& measured, const PlannedState& next) {
+  for (size_t s = 0; s < 2; ++s) {
+    const Vector3d moment = next.X_WSole[s].linear().transpose() * next.ankle_moments[s];
+    planned_bushes_[s].Yield(moment.head<2>(), kPeriod);
+    // K x + D ẋ is the torque.
+    Approach<Vector6d>(next.torques[s] / options_.stiffness, options_.damping / options_.stiffness,
+                       &sag_[s]);
+  }
+  bent_ = Bent(next);
+  const std::array<Vector6d, 2>& errors = errors_.Integrated(measured, next.t);
+  errors_.Note(next.t, {next.q[0] + bent_[0], next.q[1] + bent_[1]});
   JointCommand command{next.q, next.speeds};
   for (size_t s = 0; s < 2; ++s) {
-    command.q[s] += bent[s];
-    if (begun_) command.speeds[s] += (bent[s] - bent_[s]) / kPeriod;
+    const Vector6d added = bent_[s] + sag_[s] + errors[s];
+    command.q[s] += added;
+    if (begun_) command.speeds[s] += (added - added_[s]) / kPeriod;
+    added_[s] = added;
   }
-  bent_ = bent;
   begun_ = true;
   return command;
 }

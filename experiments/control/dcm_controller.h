@@ -3,17 +3,23 @@
 #include <Eigen/Geometry>
 #include <limits>
 
+#include "experiments/control/joint_errors.h"
 #include "experiments/control/state_estimate.h"
 #include "experiments/control/tracking_controller.h"
 
 namespace halfstep::control {
 
-/// What DcmController goes by: times and shares, so that gains go by the robot's size, mass and
-/// servos. Measured: experiments/README.md, "Tracking controllers".
+/// What DcmController goes by: what is known of the robot, and times and shares, so that gains go
+/// by the robot's size, mass and servos. Measured: experiments/README.md, "Tracking controllers".
 struct DcmOptions {
   /// Of its servos, as its maker states it [N m/rad]; ∞: not known, then nothing is fed forward and
   /// ankles give way as those of stiff servos have to. Too large: they give way too slowly.
   double stiffness = std::numeric_limits<double>::infinity();
+  /// Of its servos [N m s/rad]; 0, not known: what is fed forward asks for too much when it
+  /// changes.
+  double damping = 0.0;
+  /// Bushes above the feet; none: there are none, or they are not known.
+  std::optional<JointSpring> ankle = {};
   /// k: the DCM's error decays by e^(−kωt) where the soles are wide enough. Below 0 it grows.
   double gain = 3.0;
   double filter = 0.01;  ///< time constant of the DCM's error [s]
@@ -25,8 +31,12 @@ struct DcmOptions {
   double at_once = 0.5;
   /// Within which the difference of the feet's forces becomes what was asked for [s].
   double force_time = 0.1;
-  /// Of the waist's lean, the share by which a foot in the air is held against it.
-  double level = 0.5;
+  /// Of how the waist is off its plan, the share by which a foot in the air is held against it.
+  double level = 1.0;
+  double follow = 0.03;  ///< time constant of that [s]
+  /// Joints' errors are integrated until servos are at rest as stiff as this share of stiff ones.
+  double stiffen = 0.5;
+  double servo_time = 0.025;  ///< of that integral [s]
   /// Speed of the waist for each metre that the ZMP is off [1/s]. 2: larger pushes are survived,
   /// and the ZMP is off five times as far without a push.
   double waist_rate = 0.0;
@@ -51,28 +61,36 @@ class DcmController final : public TrackingController {
   struct FootOffset {
     Eigen::Vector2d tilt{0, 0};     // by the moment that is missing: roll, pitch in its frame [rad]
     Eigen::Vector2d at_once{0, 0};  // by the moment that is asked for beside the plan's [rad]
-    Eigen::Vector3d level{0, 0, 0};  // against the waist's lean, a turn in W [rad]
-    double lift = 0.0;               // against the waist's lean [m]
+    Eigen::Vector3d turn{0, 0, 0};  // against the waist's lean, in W [rad]
+    Eigen::Vector3d shift{0, 0, 0};  // against where the waist is [m]
   };
 
   void SenseError(const EstimatedState& state, const PlannedState& then);
   void TurnSoles(const MeasuredState& measured, const PlannedState& then,
                  const std::array<SoleLoad, 2>& wanted, const std::array<SoleLoad, 2>& planned);
-  void LevelFeet(const Eigen::Vector3d& lean, const PlannedState& then, const PlannedState& next);
+  void SenseBushes(const MeasuredState& measured, const PlannedState& then);
+  void HoldFeet(const EstimatedState& state, const PlannedState& then, const PlannedState& next);
   void ShiftWaist(const MeasuredState& measured, const PlannedState& then,
                   const Eigen::Vector2d& zmp);
+  // How far joints shall be from the plan.
   std::array<Vector6d, 2> Bent(const PlannedState& next) const;
+  JointCommand Bend(const MeasuredState& measured, const PlannedState& next);
 
   const RobotModel& robot_;
   DcmOptions options_;
   double omega_;           // [1/s]
+  double leg_stiffness_;   // of its servos [N m/rad]
   double foot_stiffness_;  // moment of a sole on the floor for each radian [N m/rad]
   bool begun_ = false;
   Eigen::Vector2d error_{0, 0};  // of the DCM [m]
   Eigen::Vector2d shift_{0, 0};  // of the waist [m]
   double difference_ = 0.0;      // of the legs' lengths, left less right [m]
   std::array<FootOffset, 2> feet_;
-  std::array<Vector6d, 2> bent_{Vector6d::Zero(), Vector6d::Zero()};  // what was added last
+  std::array<AnkleBush, 2> bushes_, planned_bushes_;  // by what was measured, by the plan
+  JointErrors errors_;
+  std::array<Vector6d, 2> sag_{Vector6d::Zero(), Vector6d::Zero()};  // of the servos, planned [rad]
+  std::array<Vector6d, 2> bent_{Vector6d::Zero(), Vector6d::Zero()};   // Bent(), of the last time
+  std::array<Vector6d, 2> added_{Vector6d::Zero(), Vector6d::Zero()};  // to the plan, likewise
 };
 
 }  // namespace halfstep::control

@@ -24,11 +24,6 @@ std::array<Vector6d, 2> After(const std::array<Vector6d, 2>& q,
   return {q[0] + h * speeds[0], q[1] + h * speeds[1]};
 }
 
-// A point of a sole as seen from B.
-Vector3d PointOfSole(const Leg& leg, const Vector6d& q, const Vector3d& p_S) {
-  return LegForwardKinematics(leg, q)[6] * p_S;
-}
-
 // A sole that carries, and its share.
 struct Anchor {
   Vector3d p_S;  // centre of pressure in the sole's frame
@@ -48,12 +43,14 @@ std::array<Anchor, 2> AnchorsOf(const MeasuredState& measured) {
 
 // Roll and pitch of `R_WB`, and the yaw that the anchors give; without anchors the planned one.
 Matrix3d Orientation(const RobotModel& robot, const MeasuredState& measured,
-                     const PlannedState& then, const std::array<Anchor, 2>& anchors) {
+                     const PlannedState& then, const std::array<AnkleBush, 2>& bushes,
+                     const std::array<Anchor, 2>& anchors) {
   const double imu = YawOf(measured.R_WB);
   double off = anchors[0].share + anchors[1].share > 0.0 ? 0.0 : YawOf(then.X_WB.linear()) - imu;
   for (size_t s = 0; s < 2; ++s) {
-    const Matrix3d R_BSole = LegForwardKinematics(robot.legs[s], measured.q[s])[6].linear();
-    const double seen = YawOf(measured.R_WB * R_BSole);
+    const Isometry3d X_BSole =
+        LegForwardKinematics(robot.legs[s], measured.q[s])[6] * bushes[s].X_RestSole();
+    const double seen = YawOf(measured.R_WB * X_BSole.linear());
     off += anchors[s].share *
            std::remainder(YawOf(then.X_WSole[s].linear()) - seen, 2 * std::numbers::pi);
   }
@@ -85,12 +82,12 @@ Vector3d CentreOfMassVelocity(const RobotModel& robot, const std::array<Vector6d
 }
 
 EstimatedState EstimateState(const RobotModel& robot, const MeasuredState& measured,
-                             const PlannedState& then) {
+                             const PlannedState& then, const std::array<AnkleBush, 2>& bushes) {
   const std::array<Anchor, 2> anchors = AnchorsOf(measured);
   const Vector3d com_B = CentreOfMass(robot, measured.q);
   const Vector3d moves_B = CentreOfMassVelocity(robot, measured.q, measured.speeds);
   EstimatedState state;
-  state.X_WB.linear() = Orientation(robot, measured, then, anchors);
+  state.X_WB.linear() = Orientation(robot, measured, then, bushes, anchors);
   const Matrix3d& R = state.X_WB.linear();
   if (anchors[0].share + anchors[1].share <= 0.0) {
     state.X_WB.translation() = then.X_WB.translation();
@@ -101,8 +98,9 @@ EstimatedState EstimateState(const RobotModel& robot, const MeasuredState& measu
   Vector3d p_WB(0, 0, 0);
   for (size_t s = 0; s < 2; ++s) {
     const Anchor& anchor = anchors[s];
-    const auto at = [&](double h) {
-      return PointOfSole(robot.legs[s], measured.q[s] + h * measured.speeds[s], anchor.p_S);
+    const auto at = [&](double h) -> Vector3d {
+      const Vector6d q = measured.q[s] + h * measured.speeds[s];
+      return LegForwardKinematics(robot.legs[s], q)[6] * bushes[s].X_RestSole(h) * anchor.p_S;
     };
     const Vector3d p_B = at(0.0), rests_B = (at(kStep) - at(-kStep)) / (2 * kStep);
     p_WB += anchor.share * (then.X_WSole[s] * anchor.p_S - R * p_B);
@@ -111,6 +109,12 @@ EstimatedState EstimateState(const RobotModel& robot, const MeasuredState& measu
   state.X_WB.translation() = p_WB;
   state.com = state.X_WB * com_B;
   return state;
+}
+
+EstimatedState EstimateState(const RobotModel& robot, const MeasuredState& measured,
+                             const PlannedState& then) {
+  return EstimateState(robot, measured, then,
+                       {AnkleBush(robot.legs[0], {}), AnkleBush(robot.legs[1], {})});
 }
 
 }  // namespace halfstep::control

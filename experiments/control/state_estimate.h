@@ -1,5 +1,6 @@
 #pragma once
 
+#include "experiments/control/ankle_bush.h"
 #include "experiments/control/tracking_controller.h"
 
 namespace halfstep::control {
@@ -23,8 +24,12 @@ struct EstimatedState {
 /// IMU's. Places are those that the soles that carry are planned to have: the centre of pressure,
 /// a point that rests even when the sole rocks on an edge, is where the planned sole has it, and
 /// the yaw is such that the sole's is the planned one; two soles count by their forces. Where
-/// nothing carries, the waist is where it is planned. Precondition: robot.masses.known().
-/// Source: [Caron2019] §III, experiments/README.md, "Tracking controllers".
+/// nothing carries, the waist is where it is planned. `bushes`: as they are turned then.
+/// Precondition: robot.masses.known(). Source: [Caron2019] §III, experiments/README.md, "Tracking
+/// controllers".
+EstimatedState EstimateState(const RobotModel& robot, const MeasuredState& measured,
+                             const PlannedState& then, const std::array<AnkleBush, 2>& bushes);
+/// The same of rigid ankles.
 EstimatedState EstimateState(const RobotModel& robot, const MeasuredState& measured,
                              const PlannedState& then);
 

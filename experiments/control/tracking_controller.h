@@ -29,6 +29,9 @@ struct PlannedState {
   std::array<Vector6d, 2> q, speeds;  ///< of the legs' joints [rad], [rad/s]
   /// What the motors then give [N m]; 0 where masses are not known or a leg is stretched.
   std::array<Vector6d, 2> torques;
+  /// What the feet do to their ankles: moments about the origins of the frames of the legs' last
+  /// joints, in W [N m]; 0 where torques are.
+  std::array<Eigen::Vector3d, 2> ankle_moments;
   Eigen::Isometry3d X_WB;                    ///< of the waist; upright
   std::array<Eigen::Isometry3d, 2> X_WSole;  ///< of the soles' centres; upright
   std::array<bool, 2> stands{};              ///< whether a sole carries

@@ -5,18 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "experiments/control/joint_spring.h"
 #include "experiments/replay/simulated_floor.h"
 #include "experiments/replay/simulated_obstacles.h"
 #include "wpg/robot/robot_model.h"
 #include "wpg/robot/robot_tree.h"
 
 namespace halfstep::replay {
-
-/// What turns a joint back to where it shall be.
-struct JointSpring {
-  double stiffness = 0.0;  ///< [N m/rad]
-  double damping = 0.0;    ///< [N m s/rad]
-};
 
 /// What the simulated robot is made of beside its URDF; the numbers are HRP-2's (PhysicsOf() has
 /// those of other sizes). Documented in experiments/README.md, "Replay".
@@ -36,7 +31,7 @@ struct ModelOptions {
   bool principal_axes = false;
   /// A passive bush between the last joint of each leg and all that it moves: hinges about the
   /// sole's y and x through the frame of that joint. None: the ankle is rigid.
-  std::optional<JointSpring> ankle = {};
+  std::optional<control::JointSpring> ankle = {};
   /// Whether servos give no more than LegJoint::max_torque.
   bool torque_limits = false;
   Eigen::Vector2d com_shift{0, 0};  ///< of all links that no leg moves, along x and y of B [m]

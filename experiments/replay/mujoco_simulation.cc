@@ -178,7 +178,8 @@ void Simulation::Place(const Eigen::Isometry3d& X_WB, const std::array<Vector6d,
   mj_resetData(state_->model(), data);
   for (size_t side = 0; side < 2; ++side) {
     for (size_t j = 0; j < 6; ++j) {
-      data->qpos[state_->layout->qpos[side][j]] = q[side][static_cast<Eigen::Index>(j)];
+      const double angle = q[side][static_cast<Eigen::Index>(j)];
+      data->qpos[state_->layout->qpos[side][j]] = data->ctrl[6 * side + j] = angle;
     }
   }
   mj_kinematics(state_->model(), data);

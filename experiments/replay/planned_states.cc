@@ -73,8 +73,13 @@ PlannedStates::Whole PlannedStates::WholeOf(const RobotModel& robot,
   whole.zmp = *zmp;
   const FootLoads loads = LoadsOf(robot, row, *zmp);
   for (const Side side : {Side::kLeft, Side::kRight}) {
-    Nth(whole.torques, Index(side)) =
-        LegTorques(dynamics, side, loads.On(side, dynamics.contact()));
+    const auto s = static_cast<size_t>(Index(side));
+    const Vector6d on_foot = loads.On(side, dynamics.contact());
+    whole.torques[s] = LegTorques(dynamics, side, on_foot);
+    const Vector6d on_ankle = on_foot - dynamics.leg(side)[5].force;
+    const Eigen::Vector3d ankle =
+        row.X_WB() * LegForwardKinematics(robot.legs[s], row.q[s])[5].translation();
+    whole.ankle_moments[s] = on_ankle.head<3>() - (ankle - dynamics.O()).cross(on_ankle.tail<3>());
   }
   return whole;
 }
@@ -98,6 +103,7 @@ control::PlannedState PlannedStates::At(double t) const {
   for (size_t s = 0; s < 2; ++s) {
     state.X_WSole[s] = TrajectoryRow::Upright(row.soles[s]);
     state.torques[s] = a.torques[s] + x * (b.torques[s] - a.torques[s]);
+    state.ankle_moments[s] = Between(x, a.ankle_moments[s], b.ankle_moments[s]);
   }
   state.com = Between(x, a.com, b.com);
   state.com_velocity = Between(x, a.velocity, b.velocity);

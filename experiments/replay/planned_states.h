@@ -24,6 +24,7 @@ class PlannedStates {
   // What the walk's model does not say.
   struct Whole {
     std::array<Vector6d, 2> torques{Vector6d::Zero(), Vector6d::Zero()};
+    std::array<Eigen::Vector3d, 2> ankle_moments{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
     Eigen::Vector3d com{0, 0, 0}, velocity{0, 0, 0};
     Eigen::Vector2d zmp{0, 0};
     double force = 0.0;

@@ -17,11 +17,12 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-// "forward", "left" …: the four directions of pushes.
+// "forward", "forward left" …: the eight directions of pushes.
 const char* DirectionName(double direction) {
-  const long quarter = std::lround(direction / (std::numbers::pi / 2));
-  constexpr const char* kNames[] = {"forward", "left", "back", "right"};
-  return kNames[quarter % 4];
+  const long eighth = std::lround(direction / (std::numbers::pi / 4));
+  constexpr const char* kNames[] = {"forward", "forward left", "left",  "back left",
+                                    "back",    "back right",   "right", "forward right"};
+  return kNames[eighth % 8];
 }
 
 const std::string& BodyName(const Replayed& replayed, const TouchRecord& touch) {

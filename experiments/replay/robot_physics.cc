@@ -40,7 +40,7 @@ ModelOptions PhysicsOf(const RobotModel& robot, const ReplayConfig& config) {
     model.stiffness = config.servos[0];
     model.damping = config.servos[1];
   }
-  if (!config.ankle.empty()) model.ankle = JointSpring{config.ankle[0], config.ankle[1]};
+  if (!config.ankle.empty()) model.ankle = control::JointSpring{config.ankle[0], config.ankle[1]};
   model.torque_limits = config.torque_limits;
   return model;
 }

@@ -49,8 +49,8 @@ PlayOptions ReplaySetup::PlayOf(const Simulation& simulated, const ReferenceMoti
   PlayOptions options = play;
   if (measures_tube) options.gauge = std::make_shared<TubeGauge>(robot.model, motion);
   if (!control) return options;
-  const std::unique_ptr<control::TrackingController> controller =
-      control->make({robot.model, model.stiffness});
+  const std::unique_ptr<control::TrackingController> controller = control->make(
+      {.model = robot.model, .servos = {model.stiffness, model.damping}, .ankle = model.ankle});
   options.control = std::make_shared<ControlLoop>(
       std::make_shared<PlannedStates>(robot.model, motion), *controller,
       control::Sensors(control->sensors, simulated.weight()));

@@ -73,7 +73,8 @@ class Simulation {
   /// Length and width of a sole [m].
   Eigen::Vector2d sole_size() const;
 
-  /// Places the robot at rest with the waist at X_WB, and the obstacles where they are at t = 0.
+  /// Places the robot at rest with the waist at X_WB, servos holding q, and the obstacles where
+  /// they are at t = 0.
   void Place(const Eigen::Isometry3d& X_WB, const std::array<Vector6d, 2>& q);
   /// The keyframes of the model, and their state: robot and obstacles as keyframe `index` has them.
   int num_keyframes() const;
