@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/commands/commands.h"
+#include "experiments/replay/physics_record.h"
 #include "experiments/replay/simulation.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/parsed_csv.h"
@@ -33,18 +34,28 @@ struct PlayedInPhysics {
   Episode episode;
   PhysicalOutcome outcome;
 };
+EpisodeRobot RobotOf(const ModelOptions& model = {}) {
+  return {.setup = {.robot = Hrp2(),
+                    .obstacles = {},
+                    .model = model,
+                    .relief = {},
+                    .play = {},
+                    .control = {}}};
+}
 PlayedInPhysics PlayInPhysics(const Scene& scene, const LiveConfig& config,
-                              const ModelOptions& model = {}, bool feedback = true) {
+                              const EpisodeRobot& robot = RobotOf(), bool feedback = true) {
   const SmallWorld& small = SmallWorld::Get();
   const TrueWorld truth(scene, config.experiment.goal, config.live);
   const Replanner replanner(small.place, config, *small.baked.cached.volumes);
-  EpisodePhysics physics(Hrp2(), truth, config.live, model);
+  EpisodePhysics physics(robot, truth, config.live);
   StandInSensor sensor(feedback ? physics.SeenByRobot() : truth, config.live, 1);
   PlayedInPhysics played;
   played.episode = RunLockstep(replanner, &sensor, small.start,
                                {.on_tick = [&](const EpisodeTick& tick) { physics.Play(tick); },
                                 .on_wait = {},
                                 .held = {},
+                                .waits = [&](Side support) { return physics.Waits(support); },
+                                .felt = [&] { return physics.TakeFelt(); },
                                 .fallen = [&] { return physics.fallen(); },
                                 .stop = {}});
   played.outcome = physics.Finish(played.episode);
@@ -117,11 +128,11 @@ TEST(EpisodePhysicsTest, WhatIsNotSeenIsTouched) {
 }
 
 /// Servos so soft that the robot strays by centimetres.
-ModelOptions Soft(double stiffness, double damping) {
+EpisodeRobot Soft(double stiffness, double damping) {
   ModelOptions model;
   model.stiffness = stiffness;
   model.damping = damping;
-  return model;
+  return RobotOf(model);
 }
 
 TEST(EpisodePhysicsTest, ARobotThatFallsEndsTheEpisode) {
@@ -139,7 +150,7 @@ TEST(EpisodePhysicsTest, FeedbackMeetsTheGoalWhereItIs) {
   SKIP_WITHOUT_PHYSICS();
   LiveConfig config = SmallWorld::Get().config;
   config.experiment.goal.radius = 0.06;
-  const ModelOptions soft = Soft(3000.0, 300.0);
+  const EpisodeRobot soft = Soft(3000.0, 300.0);
   const PhysicalOutcome with = PlayInPhysics({}, config, soft).outcome;
   const PhysicalOutcome without = PlayInPhysics({}, config, soft, /*feedback=*/false).outcome;
   EXPECT_TRUE(with.replayed.result.stayed_up);
@@ -172,6 +183,93 @@ TEST(EpisodePhysicsTest, SeesTheWorldFromItsSupportFoot) {
   const Eigen::Isometry3d& seen = last.scene.obstacles[0].X_WO;
   EXPECT_TRUE(seen.isApprox(ToIsometry(expected, seen.translation().z()), 1e-9));
   EXPECT_GT((seen.translation() - Eigen::Vector3d(1.0, 1.5, 0.02)).norm(), 0.005);
+}
+
+/// A short walk: three steps.
+LiveConfig ThreeSteps() {
+  LiveConfig config = Covering();
+  config.experiment.goal.X_WG.x = 0.45;
+  return config;
+}
+
+/// Moved by the controller, whose sensors have noise.
+EpisodeRobot Controlled(EpisodeRobot robot) {
+  robot.setup.control = {.make =
+                             [](const control::ControlledRobot& of) {
+                               return control::Controllers::Standard().Make("dcm", of);
+                             },
+                         .sensors = {.delay = 0.005, .seed = 1}};
+  robot.controller = "dcm";
+  return robot;
+}
+
+TEST(EpisodePhysicsTest, AControllerExecutesTheWalkAndTheSameAgainToTheByte) {
+  SKIP_WITHOUT_PHYSICS();
+  EpisodeRobot soft = Soft(10000.0, 300.0);
+  soft.controller = "none";
+  const PlayedInPhysics open = PlayInPhysics({}, ThreeSteps(), soft);
+  const PlayedInPhysics one = PlayInPhysics({}, ThreeSteps(), Controlled(soft));
+  const PlayedInPhysics two = PlayInPhysics({}, ThreeSteps(), Controlled(soft));
+  EXPECT_EQ(one.episode.ending, EpisodeEnding::kArrived);
+  EXPECT_EQ(TimesOf(one.episode, "early") + TimesOf(one.episode, "late"), 0);
+  EXPECT_EQ(TimesOf(one.episode, "stopped"), 0);
+  const ReplayResult& controlled = one.outcome.replayed.result;
+  EXPECT_LT(controlled.off.most.waist, 0.5 * open.outcome.replayed.result.off.most.waist);
+  EXPECT_LT(controlled.largest_tilt, open.outcome.replayed.result.largest_tilt);
+  EXPECT_THAT(PhysicsText(one.outcome), HasSubstr("controller dcm: off the plan"));
+  EXPECT_EQ(TablesText(one.episode), TablesText(two.episode));
+  EXPECT_EQ(ReplayCsv(controlled.rows).text, ReplayCsv(two.outcome.replayed.result.rows).text);
+}
+
+// When a half-step began, by its index.
+std::vector<double> Beginnings(const Episode& episode) {
+  std::vector<double> begin;
+  for (const EpisodeEvent& event : episode.events) {
+    if (event.what == "begins") begin.push_back(event.t);
+  }
+  return begin;
+}
+
+TEST(EpisodePhysicsTest, NoFootIsLiftedBeforeALateOneCarries) {
+  SKIP_WITHOUT_PHYSICS();
+  EpisodeRobot robot = Controlled(RobotOf());
+  robot.setup.relief.curb = -0.02;
+  LiveConfig config = ThreeSteps();
+  config.live.down_up_cap = 0.45;
+  const auto [episode, outcome] = PlayInPhysics({}, config, robot);
+  EXPECT_TRUE(outcome.replayed.result.stayed_up);
+  const auto late = std::ranges::find(episode.events, "late", &EpisodeEvent::what);
+  ASSERT_NE(late, episode.events.end());
+  EXPECT_THAT(late->text, testing::ContainsRegex("foot carries [0-9]+ ms later than planned"));
+  const std::vector<double> begin = Beginnings(episode);
+  ASSERT_GT(std::ssize(begin), late->half_step + 1);
+  EXPECT_GT(begin[static_cast<size_t>(late->half_step + 1)], late->t);
+  const auto stopped = std::ranges::find(episode.events, "stopped", &EpisodeEvent::what);
+  ASSERT_NE(stopped, episode.events.end());
+  EXPECT_THAT(stopped->text, HasSubstr("foot does not carry yet"));
+  EXPECT_LT(stopped->t, late->t);
+}
+
+TEST(EpisodePhysicsTest, AFootThatMeetsTheFloorEarlyIsNotPushedIntoIt) {
+  SKIP_WITHOUT_PHYSICS();
+  EpisodeRobot open = RobotOf();
+  open.setup.relief.curb = 0.01;
+  const PlayedInPhysics pushed = PlayInPhysics({}, ThreeSteps(), open);
+  const PlayedInPhysics met = PlayInPhysics({}, ThreeSteps(), Controlled(open));
+  for (const PlayedInPhysics& one : {std::cref(pushed), std::cref(met)}) {
+    EXPECT_GE(TimesOf(one.episode, "early"), 1);
+  }
+  EXPECT_LT(met.outcome.replayed.result.largest_tilt,
+            0.7 * pushed.outcome.replayed.result.largest_tilt);
+}
+
+TEST(EpisodePhysicsTest, APushIsToldAndTheControllerStandsMoreOfIt) {
+  SKIP_WITHOUT_PHYSICS();
+  EpisodeRobot open = Soft(3000.0, 150.0);
+  open.pushes = {{.at = 2.0, .duration = 0.1, .impulse_W = {0.0, 17.0, 0.0}}};
+  const PlayedInPhysics fell = PlayInPhysics({}, ThreeSteps(), open);
+  EXPECT_EQ(fell.episode.ending, EpisodeEnding::kFell);
+  EXPECT_TRUE(PlayInPhysics({}, ThreeSteps(), Controlled(open)).outcome.replayed.result.stayed_up);
 }
 
 TEST(LiveInPhysicsCommand, WritesAFolderThatVerifiesAndReplaysOrSaysWhyNot) {
