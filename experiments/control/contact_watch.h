@@ -26,7 +26,7 @@ class ContactWatch {
   /// Of the robot's weight; five standard deviations of SensorOptions::force.
   static constexpr double kCarries = 0.05;
   static constexpr double kDue = 0.1;    ///< of the weight
-  static constexpr double kLate = 0.02;  ///< a contact that is later is told [s]
+  static constexpr double kLate = 0.05;  ///< a contact that is later is told [s]
   /// So high by the plan a sole meets the floor early; lower, the servos' sag brings it there.
   /// Share of the height of the CoM.
   static constexpr double kEarly = 0.005;

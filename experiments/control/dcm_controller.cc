@@ -87,7 +87,7 @@ void DcmController::MeetFloor(const MeasuredState& measured, const PlannedState&
       const double most = kMostReach * robot_.com_height;
       foot.floor = std::max(-most, foot.floor - kPeriod * kReach * robot_.com_height);
       if (then->stands[1 - s]) then->stands[s] = false;
-    } else {
+    } else if (!then->stands[s]) {
       Approach(0.0, options_.leak, &foot.floor);
     }
   }

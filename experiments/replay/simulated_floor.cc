@@ -108,17 +108,28 @@ FloorRelief ParseRelief(const std::string& who, const std::string& text) {
 
 SimulatedFloor FloorAhead(const FloorRelief& relief, const TrajectoryRow& start,
                           const RobotModel& robot, SeedDraws* draws) {
-  constexpr double kLarge = 20.0;  // of the higher part [m]
+  constexpr double kLarge = 20.0;  // length of plates [m]
+  constexpr double kCurb = 0.6;    // where it begins, of a sole's length before its middle
   SimulatedFloor floor;
   floor.X_WFloor = DrawPlane(relief.slope, start, draws);
   if (relief.curb == 0.0) return floor;
-  // The higher part is a plate on the lower one.
-  const double along = robot.sole_size.x() + std::copysign(0.5 * kLarge, relief.curb);
-  const Pose2 X_FP = PlaceOf(start.soles[0]) * Pose2{along, 0.0, 0.0};
-  const double height = std::abs(relief.curb);
-  if (relief.curb < 0.0) floor.X_WFloor = floor.X_WFloor * Eigen::Translation3d(0, 0, -height);
-  floor.plates.push_back({TrajectoryRow::Upright({X_FP.x, X_FP.y, height, X_FP.yaw}),
-                          Eigen::Vector2d(kLarge, kLarge), /*at_start=*/relief.curb < 0.0});
+  // The higher part is plates on the lower one, seen from the left sole: where it ends on the way,
+  // and in the middle between both soles.
+  const Pose2 X_WL = PlaceOf(start.soles[0]);
+  const double x = kCurb * robot.sole_size.x(), large = 0.5 * kLarge;
+  const double y = 0.5 * (X_WL.Inverse() * PlaceOf(start.soles[1]).position()).y();
+  const auto add = [&](double at_x, double at_y, double length, double width, bool at_start) {
+    const Pose2 X = X_WL * Pose2{at_x, at_y, 0.0};
+    floor.plates.push_back({TrajectoryRow::Upright({X.x, X.y, std::abs(relief.curb), X.yaw}),
+                            Eigen::Vector2d(length, width), at_start});
+  };
+  if (relief.curb > 0.0) {
+    add(x + large, y - large, kLarge, kLarge, false);
+  } else {
+    floor.X_WFloor = floor.X_WFloor * Eigen::Translation3d(0, 0, relief.curb);
+    add(x - large, y, kLarge, 2 * kLarge, true);
+    add(x + large, y + large, kLarge, kLarge, false);
+  }
   return floor;
 }
 

@@ -13,7 +13,7 @@ namespace halfstep::replay {
 /// What the simulated floor has that the plan does not know of.
 struct FloorRelief {
   double plates = 0.0;  ///< the greatest height of plates under the feet [m]; 0: there are none
-  double curb = 0.0;    ///< how much higher it is from a place ahead of the start on [m]
+  double curb = 0.0;    ///< how much higher it is to the right, ahead of the start [m]
   double slope = 0.0;   ///< how steep the floor is [rad]
 };
 
@@ -37,9 +37,9 @@ struct SimulatedFloor {
 
 /// Draws a floor for the walk of these rows. Each place where a sole lands gets a plate of the
 /// sole's size, up to `plates` high and shifted by up to half a sole either way, unless it would be
-/// under a sole that stands at the start. Half a sole's length in front of these soles a curb
-/// begins, across the way of the left one. The plane is turned about the middle of these soles and
-/// falls in a drawn direction.
+/// under a sole that stands at the start. A curb is
+/// under the right side of the way, a tenth of a sole's length in front of these soles. The plane
+/// is turned about the middle of these soles and falls in a drawn direction.
 SimulatedFloor DrawFloor(const FloorRelief& relief, const std::vector<TrajectoryRow>& rows,
                          const RobotModel& robot, SeedDraws* draws);
 

@@ -233,7 +233,7 @@ std::vector<double> Beginnings(const Episode& episode) {
 TEST(EpisodePhysicsTest, NoFootIsLiftedBeforeALateOneCarries) {
   SKIP_WITHOUT_PHYSICS();
   EpisodeRobot robot = Controlled(RobotOf());
-  robot.setup.relief.curb = -0.02;
+  robot.setup.relief.curb = -0.015;
   LiveConfig config = ThreeSteps();
   config.live.down_up_cap = 0.45;
   const auto [episode, outcome] = PlayInPhysics({}, config, robot);
