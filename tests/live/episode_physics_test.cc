@@ -15,6 +15,8 @@
 #include "tests/experiments/short_episode.h"
 #include "tests/live/small_episode.h"
 #include "tests/temporary_folder.h"
+#include "wpg/nth.h"
+#include "wpg/robot/gravity.h"
 
 namespace halfstep::replay {
 namespace {
@@ -221,33 +223,55 @@ TEST(EpisodePhysicsTest, AControllerExecutesTheWalkAndTheSameAgainToTheByte) {
   EXPECT_EQ(ReplayCsv(controlled.rows).text, ReplayCsv(two.outcome.replayed.result.rows).text);
 }
 
-// When a half-step began, by its index.
-std::vector<double> Beginnings(const Episode& episode) {
-  std::vector<double> begin;
+// By itself, without physics: what the executor does when it is told that a foot does not carry.
+TEST(EpisodePhysicsTest, NoFootIsLiftedAsLongAsTheRobotWaits) {
+  constexpr double kFrom = 2.0, kUntil = 4.0;
+  double now = 0.0;
+  const auto waits = [&now](Side) {
+    return now > kFrom && now < kUntil ? std::string("a foot does not carry yet") : "";
+  };
+  const Episode episode =
+      Play({}, SmallWorld::Get().config,
+           {.on_tick = [&now](const EpisodeTick& tick) { now = tick.now; }, .waits = waits})
+          .episode;
+  EXPECT_EQ(episode.ending, EpisodeEnding::kArrived);
+  EXPECT_EQ(TimesOf(episode, "stopped"), 1);
+  int after = 0;
   for (const EpisodeEvent& event : episode.events) {
-    if (event.what == "begins") begin.push_back(event.t);
+    if (event.what == "stopped") EXPECT_THAT(event.text, HasSubstr(": a foot does not carry yet"));
+    if (event.what != "begins" || event.half_step % 2 != 0) continue;
+    EXPECT_FALSE(event.t > kFrom + 0.02 && event.t < kUntil) << event.t;
+    after += event.t >= kUntil ? 1 : 0;
   }
-  return begin;
+  EXPECT_GT(after, 0);
 }
 
-TEST(EpisodePhysicsTest, NoFootIsLiftedBeforeALateOneCarries) {
-  SKIP_WITHOUT_PHYSICS();
-  EpisodeRobot robot = Controlled(RobotOf());
-  robot.setup.relief.curb = -0.015;
-  LiveConfig config = ThreeSteps();
-  config.live.down_up_cap = 0.45;
-  const auto [episode, outcome] = PlayInPhysics({}, config, robot);
-  EXPECT_TRUE(outcome.replayed.result.stayed_up);
-  const auto late = std::ranges::find(episode.events, "late", &EpisodeEvent::what);
-  ASSERT_NE(late, episode.events.end());
-  EXPECT_THAT(late->text, testing::ContainsRegex("foot carries [0-9]+ ms later than planned"));
-  const std::vector<double> begin = Beginnings(episode);
-  ASSERT_GT(std::ssize(begin), late->half_step + 1);
-  EXPECT_GT(begin[static_cast<size_t>(late->half_step + 1)], late->t);
-  const auto stopped = std::ranges::find(episode.events, "stopped", &EpisodeEvent::what);
-  ASSERT_NE(stopped, episode.events.end());
-  EXPECT_THAT(stopped->text, HasSubstr("foot does not carry yet"));
-  EXPECT_LT(stopped->t, late->t);
+TEST(EpisodePhysicsTest, AFootThatCarriesLateIsMissedAndThenTold) {
+  const SuperposedWalk walk = Play({}, SmallWorld::Get().config).episode.Executed();
+  const RobotModel& robot = Hrp2().model;
+  const Side swing = walk.half_step(2).swing();
+  const double landing = walk.start_of(3) + walk.tracks(3).t1();
+  control::ContactWatch watch(robot);
+  std::vector<control::Contact> told;
+  bool missed = false;
+  for (double t = 0.0; t < landing + 0.5; t += 0.005) {
+    control::MeasuredState measured;
+    measured.t = t;
+    for (const Side side : {Side::kLeft, Side::kRight}) {
+      const bool late = side == swing && t > landing - 0.1 && t < landing + 0.2;
+      const bool lifted = late || walk.InAir(walk.Locate(t), side);
+      Nth(measured.loads, Index(side)).force = lifted ? 0.0 : 0.5 * robot.mass * kGravity;
+    }
+    if (const auto contact = watch.Look(measured, walk)) told.push_back(*contact);
+    missed = missed || watch.misses(swing);
+  }
+  EXPECT_TRUE(missed);
+  EXPECT_FALSE(watch.misses(swing));
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_EQ(told[0].foot, swing);
+  EXPECT_EQ(told[0].half_step, 3);
+  EXPECT_GT(told[0].late, 0.1);
+  EXPECT_LT(told[0].late, 0.21);
 }
 
 TEST(EpisodePhysicsTest, AFootThatMeetsTheFloorEarlyIsNotPushedIntoIt) {
@@ -263,13 +287,18 @@ TEST(EpisodePhysicsTest, AFootThatMeetsTheFloorEarlyIsNotPushedIntoIt) {
             0.7 * pushed.outcome.replayed.result.largest_tilt);
 }
 
-TEST(EpisodePhysicsTest, APushIsToldAndTheControllerStandsMoreOfIt) {
+TEST(EpisodePhysicsTest, APushActsAndIsTold) {
   SKIP_WITHOUT_PHYSICS();
-  EpisodeRobot open = Soft(3000.0, 150.0);
-  open.pushes = {{.at = 2.0, .duration = 0.1, .impulse_W = {0.0, 17.0, 0.0}}};
-  const PlayedInPhysics fell = PlayInPhysics({}, ThreeSteps(), open);
-  EXPECT_EQ(fell.episode.ending, EpisodeEnding::kFell);
-  EXPECT_TRUE(PlayInPhysics({}, ThreeSteps(), Controlled(open)).outcome.replayed.result.stayed_up);
+  EpisodeRobot robot = Soft(3000.0, 150.0);
+  const auto push = [&robot](double impulse) {
+    robot.pushes = {{.at = 2.0, .duration = 0.1, .impulse_W = {0.0, impulse, 0.0}}};
+  };
+  push(17.0);
+  EXPECT_EQ(PlayInPhysics({}, ThreeSteps(), robot).episode.ending, EpisodeEnding::kFell);
+  push(4.0);
+  const PhysicalOutcome stands = PlayInPhysics({}, ThreeSteps(), Controlled(robot)).outcome;
+  EXPECT_TRUE(stands.replayed.result.stayed_up);
+  EXPECT_THAT(PhysicsText(stands), HasSubstr("pushed at 2.00 s for 0.10 s: x 0.0 N s, y 4.0 N s"));
 }
 
 TEST(LiveInPhysicsCommand, WritesAFolderThatVerifiesAndReplaysOrSaysWhyNot) {
