@@ -4,10 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "experiments/config/replay_config.h"
 #include "experiments/config/toolbox.h"
-#include "experiments/control/controllers.h"
 #include "experiments/export/whole_trajectory.h"
+#include "experiments/replay/simulated_robot.h"
 #include "experiments/report/walk_video.h"
 #include "experiments/run/exit_status.h"
 #include "experiments/survey/robot_survey.h"
@@ -35,6 +34,8 @@ struct LiveCommand {
   int port = 0;                       ///< of the page; 0: any that is free
   std::optional<std::string> socket;  ///< serves messages there
   bool in_physics = false;  ///< a simulated robot executes the walk, and is what is measured from
+  replay::SimulatedRobot simulated;  ///< that robot; its controllers count
+  std::vector<replay::Push> pushes;  ///< of its waist, in times of the walk
 };
 
 /// `halfstep live`: an episode of walking while the world changes, by a config with `live`, into a
@@ -125,21 +126,14 @@ struct ReplayCommand {
   bool push = false;                 ///< finds the largest push that is survived
   int push_directions = 4;           ///< of pushes, evenly around: 4 or 8
   std::vector<double> push_at;       ///< instants [s]; none: a quarter, half, three quarters
-  ReplayConfig robot;                ///< servos, ankles and torque limits; its seeds count not
-  std::optional<std::string> floor;  ///< as ParseRelief() takes it; none: level
+  replay::SimulatedRobot simulated;  ///< and what moves it
   std::optional<int> seeds;          ///< plays each walk in the worlds of so many seeds; none: once
-  /// What moves the robot, by its name in `controllers`; "none": the servos get the plan itself.
-  std::optional<std::string> controller;
-  std::optional<double> sensor_delay;        ///< SensorOptions::delay [s]
-  std::optional<std::uint64_t> sensor_seed;  ///< SensorOptions::seed
-  bool suggest_tube = false;                 ///< tells how wide `smoothing.tube` has to be
+  bool suggest_tube = false;         ///< tells how wide `smoothing.tube` has to be
   /// Write METHOD/replay.csv, of an episode replay.csv, there; with seeds replays.csv.
   bool out = false;
   bool quiet = false;
   bool json = false;
   Toolbox tools = {};  ///< that configs may name
-  control::Controllers controllers =
-      control::Controllers::Standard();  ///< that `controller` may name
 };
 
 /// `halfstep replay`: plays the walks of a run, or the walk of an episode, on a simulated robot

@@ -1,10 +1,12 @@
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <memory>
 #include <optional>
 
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
+#include "experiments/commands/simulated_robot_options.h"
 #include "experiments/live/episode.h"
 #include "experiments/live/episode_files.h"
 #include "experiments/live/episode_journal.h"
@@ -20,6 +22,8 @@
 #include "experiments/server/served_episode.h"
 #include "smoothing/margins/not_covered_by.h"
 #include "wpg/files/input_error.h"
+#include "wpg/files/number_text.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {
@@ -67,15 +71,19 @@ std::unique_ptr<ServedEpisode> Serve(const LiveCommand& command, const LiveConfi
   return served;
 }
 
-// The robot that executes the walk in physics, and what it is made of.
-struct PhysicalRobot {
-  PhysicalRobot(const LiveConfig& config, const TrueWorld& truth)
-      : whole(LoadWholeRobot(RobotPath(config.experiment).string())),
-        physics(whole, truth, config.live) {}
-
-  WholeRobot whole;
-  replay::EpisodePhysics physics;
-};
+// The robot that executes the walk in physics.
+replay::EpisodeRobot RobotOf(const LiveCommand& command, const LiveConfig& config) {
+  replay::EpisodeRobot robot{
+      .setup = command.simulated.SetupOf(LoadWholeRobot(RobotPath(config.experiment).string()), {}),
+      .controller = command.simulated.controller,
+      .pushes = command.pushes};
+  if (robot.setup.relief.plates > 0.0) {
+    throw InputError(
+        {"--floor: plates lie where a walk lands, which an episode does not know "
+         "before (valid: curb=H, slope=A)"});
+  }
+  return robot;
+}
 
 // `hooks`: without clients.
 Episode Walk(const LiveConfig& config, const Replanner& replanner, const Place& place,
@@ -98,12 +106,19 @@ Episode Walk(const LiveConfig& config, const Replanner& replanner, const Place& 
               .ended = served->stop_token()});
 }
 
+// Lets a simulated robot say what it feels, and whether it fell.
+void AddPhysics(replay::EpisodePhysics* simulated, EpisodeHooks* hooks) {
+  hooks->waits = [simulated](Side support) { return simulated->Waits(support); };
+  hooks->felt = [simulated] { return simulated->TakeFelt(); };
+  hooks->fallen = [simulated] { return simulated->fallen(); };
+}
+
 // What truly happened, in times of the walk, by the script and by what clients did; none when only
 // they know.
 std::optional<TrueWorld> WhatWasTrue(const LiveConfig& config, const Place& place,
-                                     const std::optional<PhysicalRobot>& simulated, double waited) {
+                                     const replay::EpisodePhysics* simulated, double waited) {
   if (config.live.sensing.source != "stand_in") return std::nullopt;
-  if (simulated) return simulated->physics.SeenByRobot().Since(waited);
+  if (simulated != nullptr) return simulated->SeenByRobot().Since(waited);
   return TrueWorld(place.scene, config.experiment.goal, config.live).Since(waited);
 }
 
@@ -141,6 +156,42 @@ std::shared_ptr<const BakedHalfSteps> Baked(const LiveConfig& config, const Plac
       {.progress = [&bar](const std::string&, double done) { bar.Update(done); }, .stop = stop}));
 }
 
+// "T,FX,FY,SECONDS" of --push.
+replay::Push PushOf(const std::string& text) {
+  std::vector<double> numbers;
+  for (size_t begin = 0; begin <= text.size();) {
+    const size_t end = std::min(text.find(',', begin), text.size());
+    const NumberText number = ParseNumber(text.substr(begin, end - begin));
+    const bool good = number.kind == NumberText::Kind::kNumber && std::abs(number.value) <= 1e4;
+    numbers.push_back(good ? number.value : std::nan(""));
+    begin = end + 1;
+  }
+  const bool good = numbers.size() == 4 && numbers[0] >= 0.0 && numbers[3] > 0.0 &&
+                    numbers[3] <= 10.0 && std::isfinite(numbers[1]) && std::isfinite(numbers[2]);
+  if (!good) {
+    throw InputError({"--push " + Quote(text) +
+                      ": is no push (valid: T,FX,FY,SECONDS with T in s from 0, forces in N up to "
+                      "10000, and up to 10 s)"});
+  }
+  return {.at = numbers[0],
+          .duration = numbers[3],
+          .impulse_W = numbers[3] * Eigen::Vector3d(numbers[1], numbers[2], 0.0)};
+}
+
+std::vector<replay::Push> PushesOf(const std::vector<std::string>& texts) {
+  std::vector<replay::Push> pushes;
+  for (const std::string& text : texts) {
+    pushes.push_back(PushOf(text));
+    if (pushes.size() == 1) continue;
+    const replay::Push& before = pushes[pushes.size() - 2];
+    if (pushes.back().at >= before.at + before.duration) continue;
+    throw InputError({"--push " + Quote(text) +
+                      ": begins before the one before it ends (valid: one "
+                      "after the other)"});
+  }
+  return pushes;
+}
+
 }  // namespace
 
 ExitStatus Live(const LiveCommand& command) {
@@ -152,6 +203,9 @@ ExitStatus Live(const LiveCommand& command) {
   const Place& place = loaded.place;
   TellWarnings(place.robot, place.scene);
   const TrueWorld truth(place.scene, config.experiment.goal, config.live);
+  // What the options of the simulated robot say is refused before anything is computed.
+  std::optional<replay::EpisodePhysics> simulated;
+  if (command.in_physics) simulated.emplace(RobotOf(command, config), truth, config.live);
   const std::unique_ptr<ServedEpisode> served = Serve(command, config, place, truth);
   const bool silent = command.run.quiet || command.run.json;
   const std::shared_ptr<const BakedHalfSteps> baked =
@@ -168,31 +222,27 @@ ExitStatus Live(const LiveCommand& command) {
   bar.emplace("episode", silent);
   EpisodeJournal journal(folder.path(), config, command.run.overwrite);
   interrupt.Keep();
-  std::optional<PhysicalRobot> simulated;
-  if (command.in_physics) simulated.emplace(config, truth);
-  const TrueWorld seen = simulated ? simulated->physics.SeenByRobot() : truth;
+  const TrueWorld seen = simulated ? simulated->SeenByRobot() : truth;
   StandInSensor sensor(seen, config.live, static_cast<std::uint64_t>(config.experiment.seed) + 1);
   const auto on_tick = [&](const EpisodeTick& tick) {
-    if (simulated) simulated->physics.Play(tick);
+    if (simulated) simulated->Play(tick);
     journal.Write(tick);
     bar->Update(tick.now / config.live.longest);
   };
-  Episode episode = Walk(config, replanner, place, &sensor, served.get(),
-                         {.on_tick = on_tick,
-                          .on_wait = {},
-                          .held = {},
-                          .fallen = [&] { return simulated && simulated->physics.fallen(); },
-                          .stop = interrupt.token()});
+  EpisodeHooks hooks{.on_tick = on_tick, .stop = interrupt.token()};
+  if (simulated) AddPhysics(&*simulated, &hooks);
+  Episode episode = Walk(config, replanner, place, &sensor, served.get(), hooks);
   bar.reset();
   if (!journal.failure().empty()) std::cerr << "halfstep: warning: " << journal.failure() << '\n';
   if (served) config.live.script = served->Script();
-  const std::optional<TrueWorld> was_true = WhatWasTrue(config, place, simulated, episode.waited);
+  const std::optional<TrueWorld> was_true =
+      WhatWasTrue(config, place, simulated ? &*simulated : nullptr, episode.waited);
   episode.promise = JudgePromise(episode, was_true ? &*was_true : nullptr, place, config.live);
   if (simulated) episode.promise.judged_by = "simulation";
   WriteEpisode(episode, config, place, &folder);
   std::optional<replay::PhysicalOutcome> outcome;
   if (simulated) {
-    outcome = simulated->physics.Finish(episode);
+    outcome = simulated->Finish(episode);
     WritePhysics(*outcome, place.robot, place.scene, &folder);
   }
   folder.Publish();
@@ -220,12 +270,24 @@ CommandAction DeclareLive(CLI::App* app, const Toolbox& tools) {
       ->needs(view);
   CLI::Option* const serve = app->add_option(
       "--serve", command->socket, "serve the same messages by a Unix-domain socket of this path");
-  app->add_flag("--in-physics", command->in_physics,
-                "a robot simulated by MuJoCo executes the walk; the world is measured from it")
-      ->excludes(view)
-      ->excludes(serve);
+  CLI::Option* const in_physics =
+      app->add_flag("--in-physics", command->in_physics,
+                    "a robot simulated by MuJoCo executes the walk; the world is measured from it")
+          ->excludes(view)
+          ->excludes(serve);
+  const SimulatedRobotOptions robot = DeclareSimulatedRobot(app, &command->simulated);
+  for (CLI::Option* option : robot.all) option->needs(in_physics);
+  const auto pushes = std::make_shared<std::vector<std::string>>();
+  app->add_option(
+         "--push", *pushes,
+         "T,FX,FY,SECONDS: from the time T [s] of the walk on a force [N] on the waist; may "
+         "be given again")
+      ->take_all()
+      ->needs(in_physics);
   DeclareRunFlags(app, &command->run);
-  return [command, sets] {
+  return [command, sets, robot, pushes] {
+    robot.finish();
+    command->pushes = PushesOf(*pushes);
     command->run.overrides = ParseOverrides(*sets);
     return Live(*command);
   };

@@ -6,12 +6,12 @@
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/command_mistake.h"
 #include "experiments/commands/commands.h"
+#include "experiments/commands/simulated_robot_options.h"
 #include "experiments/config/experiment.h"
 #include "experiments/replay/episode_folder.h"
 #include "experiments/replay/play_once.h"
 #include "experiments/replay/recorded_run.h"
 #include "experiments/replay/replay_screen.h"
-#include "experiments/replay/run_replay.h"
 #include "experiments/replay/seeds_screen.h"
 #include "experiments/run/interrupt.h"
 #include "experiments/run/progress_bar.h"
@@ -20,7 +20,6 @@
 #include "experiments/tables/run_record.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/number_text.h"
-#include "wpg/files/suggestion.h"
 #include "wpg/files/text.h"
 #include "wpg/robot/torque_limits.h"
 
@@ -45,34 +44,6 @@ struct Task {
   std::vector<replay::RecordedWalk> motions;  // `folder` of an episode is ""
 };
 
-bool IsControlled(const ReplayCommand& command) {
-  return command.controller.value_or("none") != "none";
-}
-
-// Throws InputError for what no controller can do with.
-void CheckController(const ReplayCommand& command, const RobotModel& robot) {
-  std::vector<std::string> names = command.controllers.names();
-  names.insert(names.begin(), "none");
-  const std::string name = command.controller.value_or("none");
-  if (std::find(names.begin(), names.end(), name) == names.end()) {
-    throw InputError({"--controller: there is no " + name + " (valid: " + Joined(names) + ")"});
-  }
-  if (!IsControlled(command)) {
-    if (command.sensor_delay)
-      throw InputError({"--sensor-delay: without a --controller it says nothing"});
-    if (command.sensor_seed)
-      throw InputError({"--sensor-seed: without a --controller it says nothing"});
-    return;
-  }
-  constexpr double kMostDelay = 1.0;
-  if (const double s = command.sensor_delay.value_or(0.0); !(s >= 0.0 && s <= kMostDelay)) {
-    throw InputError({"--sensor-delay " + ShortestText(s) + ": no delay (valid: 0 … 1 s)"});
-  }
-  if (!robot.masses.known()) {
-    throw InputError({"--controller " + name + ": of " + robot.name + ", " + robot.masses.fault});
-  }
-}
-
 // Throws InputError for what no tube speaks of.
 void CheckTube(const ReplayCommand& command) {
   if (!command.suggest_tube) return;
@@ -81,7 +52,7 @@ void CheckTube(const ReplayCommand& command) {
         {"--suggest-tube: a walk that --push makes fall is in no tube (valid: without "
          "--push; --seeds pushes as well)"});
   }
-  if (command.floor) {
+  if (command.simulated.floor) {
     throw InputError(
         {"--suggest-tube: a tube is about the floor that is planned (valid: without "
          "--floor)"});
@@ -91,28 +62,14 @@ void CheckTube(const ReplayCommand& command) {
   }
 }
 
-// What moves the robot in place of the plan. Precondition: IsControlled(command).
-replay::ControlSetup ControlOf(const ReplayCommand& command) {
-  replay::ControlSetup control{
-      .make = [controllers = command.controllers, name = *command.controller](
-                  const control::ControlledRobot& robot) { return controllers.Make(name, robot); },
-      .sensors = {}};
-  control.sensors.delay = command.sensor_delay.value_or(control.sensors.delay);
-  control.sensors.seed = command.sensor_seed;
-  return control;
-}
-
 Task TaskOf(const ReplayCommand& command, WholeRobot robot,
             const replay::SimulatedObstacles& world) {
-  Task task{.setup = replay::SetupOf(std::move(robot), world.obstacles, command.robot),
+  Task task{.setup = command.simulated.SetupOf(std::move(robot), world.obstacles),
             .notes = world.notes,
             .motions = {}};
-  if (command.floor) task.setup.relief = replay::ParseRelief("--floor", *command.floor);
-  CheckController(command, task.setup.robot.model);
-  if (IsControlled(command)) task.setup.control = ControlOf(command);
   task.setup.measures_tube = command.suggest_tube;
   const std::vector<std::string> unknown = JointsOfUnknownTorque(task.setup.robot.model);
-  if (command.robot.torque_limits) {
+  if (command.simulated.robot.torque_limits) {
     task.notes.push_back("Leg joints whose servos have no torque limit: " +
                          (unknown.empty() ? "none." : std::to_string(unknown.size()) + " of 12."));
   }
@@ -190,7 +147,7 @@ ExitStatus ReplayOnce(const Telling& telling, const std::vector<std::vector<doub
     const replay::ReferenceMotion& motion = task.motions[i].motion;
     replay::Replayed& replayed =
         all.emplace_back(replay::PlayOnce(task.setup, task.motions[i].method, motion));
-    replayed.controller = command.controller;
+    replayed.controller = command.simulated.controller;
     stayed_up = stayed_up && replayed.result.stayed_up;
     if (command.suggest_tube) replayed.tube = replay::SuggestTube({&replayed.result}, robot);
     if (command.push && replayed.result.stayed_up) {
@@ -236,21 +193,6 @@ ExitStatus ReplaySeeds(const Telling& telling) {
                         stayed_up);
 }
 
-// "K,D" of an option.
-std::vector<double> SpringOf(const std::string& option, const std::string& text) {
-  std::vector<double> spring;
-  const size_t comma = std::min(text.find(','), text.size());
-  for (const std::string& part :
-       {text.substr(0, comma), text.substr(std::min(comma + 1, text.size()))}) {
-    const NumberText number = ParseNumber(part);
-    if (number.kind == NumberText::Kind::kNumber) spring.push_back(number.value);
-  }
-  if (spring.empty()) spring = {0.0};
-  const std::string mistake = MistakeInSpring(spring);
-  if (!mistake.empty()) throw InputError({option + " " + Quote(text) + ": " + mistake});
-  return spring;
-}
-
 int SeedsOf(const std::string& text) {
   const NumberText number = ParseNumber(text);
   const bool good = number.kind == NumberText::Kind::kNumber && number.value >= 1 &&
@@ -286,20 +228,13 @@ CommandAction DeclareReplay(CLI::App* app, const Toolbox& tools) {
   // CLI11 writes into these while it parses, so they must live as long as the action.
   struct Texts {
     std::string engine = "mujoco";
-    std::optional<std::string> servos, ankle, seeds;
+    std::optional<std::string> seeds;
   };
   const auto texts = std::make_shared<Texts>();
   app->add_option("RUN", command->run, "folder of a run or of an episode")->required();
   app->add_option("--engine", texts->engine, "mujoco")->check(OneOf({"mujoco"}));
   app->add_option("--method", command->method, "only this one (default: all)");
-  app->add_option("--servos", texts->servos,
-                  "K,D of the servos [N m/rad, N m s/rad] (default: as the robot's size has them)");
-  app->add_option("--ankle", texts->ankle,
-                  "K,D of a passive bush above each foot (default: there is none)");
-  app->add_flag("--torque-limits", command->robot.torque_limits,
-                "servos give no more than the robot's efforts");
-  app->add_option("--floor", command->floor,
-                  "unknown to the plan: plates=H [m], slope=A [deg], or both with a comma");
+  const SimulatedRobotOptions robot = DeclareSimulatedRobot(app, &command->simulated);
   app->add_option(
       "--seeds", texts->seeds,
       "play each walk so often, with friction, contacts, stiffness, CoM and a push drawn");
@@ -307,13 +242,6 @@ CommandAction DeclareReplay(CLI::App* app, const Toolbox& tools) {
   app->add_option("--push-directions", command->push_directions, "of pushes: 4 (default) or 8")
       ->check(CLI::IsMember({4, 8}));
   app->add_option("--push-at", command->push_at, "instants of the push [s]");
-  app->add_option(
-      "--controller", command->controller,
-      "what moves the robot: none (servos get the plan itself), dcm; tells tracking errors");
-  app->add_option("--sensor-delay", command->sensor_delay,
-                  "what is measured arrives so late [s] (default: 0.005)");
-  app->add_option("--sensor-seed", command->sensor_seed,
-                  "draws noise of sensors (default: no noise)");
   app->add_flag("--suggest-tube", command->suggest_tube,
                 "print the `smoothing.tube` that holds where the robot is off its plan");
   app->add_flag(
@@ -321,9 +249,8 @@ CommandAction DeclareReplay(CLI::App* app, const Toolbox& tools) {
       "write METHOD/replay.csv (episode: replay.csv; seeds: replays.csv) into the folder");
   app->add_flag("--quiet", command->quiet, "print nothing but errors");
   app->add_flag("--json", command->json, "print JSON");
-  return [command, texts] {
-    if (texts->servos) command->robot.servos = SpringOf("--servos", *texts->servos);
-    if (texts->ankle) command->robot.ankle = SpringOf("--ankle", *texts->ankle);
+  return [command, texts, robot] {
+    robot.finish();
     if (texts->seeds) command->seeds = SeedsOf(*texts->seeds);
     return Replay(*command);
   };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/control/contact_watch.h"
 #include "experiments/control/small_turn.h"
 #include "experiments/control/sole_loads.h"
 #include "wpg/nth.h"
@@ -20,13 +21,15 @@ constexpr double kPeriod = kControlPeriod;
 // Moment of a foot on the floor for each radian, of m g z_c, when the servos' stiffness is not
 // known: that of 30 000 N m/rad at HRP-2's size.
 constexpr double kStiffFoot = 70.0;
-constexpr double kLegLever = 0.14;  // of the knee about the line from hip to ankle, of z_c
-constexpr double kCarries = 0.02;   // of the weight: the least that a sole carries
-constexpr double kMostTilt = 0.2;   // of a sole [rad]
-constexpr double kForget = 0.1;     // of what a foot no longer needs [s]
-constexpr double kFollow = 0.03;    // of a foot in the air [s]
-constexpr double kMostShift = 0.1;  // of the waist, of z_c
-constexpr double kShiftLeak = 0.5;  // [s]
+constexpr double kLegLever = 0.14;   // of the knee about the line from hip to ankle, of z_c
+constexpr double kCarries = 0.02;    // of the weight: the least that a sole carries
+constexpr double kMostTilt = 0.2;    // of a sole [rad]
+constexpr double kForget = 0.1;      // of what a foot no longer needs [s]
+constexpr double kFollow = 0.03;     // of a foot in the air [s]
+constexpr double kReach = 0.08;      // of a foot that misses the floor, of z_c [1/s]
+constexpr double kMostReach = 0.03;  // of z_c
+constexpr double kMostShift = 0.1;   // of the waist, of z_c
+constexpr double kShiftLeak = 0.5;   // [s]
 
 // First-order, with the time constant `time`.
 template <typename Value>
@@ -68,6 +71,39 @@ DcmController::DcmController(const RobotModel& robot, const DcmOptions& options)
 
 std::unique_ptr<TrackingController> DcmController::Clone() const {
   return std::make_unique<DcmController>(*this);
+}
+
+void DcmController::MeetFloor(const MeasuredState& measured, const PlannedState& next,
+                              PlannedState* then) {
+  const double weight = robot_.mass * kGravity, high = ContactWatch::kEarly * robot_.com_height;
+  const std::array<SoleLoad, 2> due = SharedLoads(*then, robot_.sole_size, then->zmp);
+  for (size_t s = 0; s < 2; ++s) {
+    FootOffset& foot = feet_[s];
+    const bool pressed = measured.loads[s].force >= ContactWatch::kCarries * weight;
+    const bool carries = pressed && foot.pressed;
+    foot.pressed = pressed;
+    if (then->stands[s]) {
+      foot.met = 0.0;
+      foot.landed = foot.landed || carries;
+      const bool awaited = !foot.landed && due[s].force >= ContactWatch::kDue * weight;
+      foot.missing = awaited ? foot.missing + kPeriod : 0.0;
+    } else {
+      foot.landed = foot.landed && pressed;
+      foot.missing = 0.0;
+      const double z = then->X_WSole[s].translation().z();
+      if (carries && !foot.landed && foot.met == 0.0 && z >= high) foot.met = z;
+    }
+    const double z = next.X_WSole[s].translation().z();
+    if (foot.met > 0.0) {
+      foot.floor = std::max(0.0, foot.met - z);
+    } else if (foot.missing > ContactWatch::kLate) {
+      const double most = kMostReach * robot_.com_height;
+      foot.floor = std::max(-most, foot.floor - kPeriod * kReach * robot_.com_height);
+      if (then->stands[1 - s]) then->stands[s] = false;
+    } else if (!then->stands[s]) {
+      Approach(0.0, options_.leak, &foot.floor);
+    }
+  }
 }
 
 void DcmController::SenseError(const EstimatedState& state, const PlannedState& then) {
@@ -158,7 +194,7 @@ std::array<Vector6d, 2> DcmController::Bent(const PlannedState& next) const {
     tilt.head<2>() = foot.tilt + foot.at_once;
     Isometry3d X_WSole = next.X_WSole[s];
     X_WSole.translation() += foot.shift;
-    X_WSole.translation().z() += (s == 0 ? -0.5 : 0.5) * difference_;
+    X_WSole.translation().z() += foot.floor + (s == 0 ? -0.5 : 0.5) * difference_;
     X_WSole.linear() = Turned(foot.turn) * X_WSole.linear();
     X_WSole =
         X_WSole * TurnedAbout(bushes_[s].ankle(), tilt) * planned_bushes_[s].X_RestSole().inverse();
@@ -171,18 +207,20 @@ std::array<Vector6d, 2> DcmController::Bent(const PlannedState& next) const {
   return bent;
 }
 
-JointCommand DcmController::Command(const MeasuredState& measured, const PlannedState& then,
+JointCommand DcmController::Command(const MeasuredState& measured, const PlannedState& planned,
                                     const PlannedState& next) {
+  PlannedState then = planned;
+  MeetFloor(measured, next, &then);
   SenseBushes(measured, then);
   const EstimatedState state = EstimateState(robot_, measured, then, bushes_);
   SenseError(state, then);
   const auto nearest = [&](const Vector2d& p) {
     return NearestInSupport(then, robot_.sole_size, options_.inset, p);
   };
-  const Vector2d planned = nearest(then.zmp);
+  const Vector2d without = nearest(then.zmp);
   const Vector2d zmp = nearest(then.zmp + (1.0 + options_.gain) * error_);
   TurnSoles(measured, then, SharedLoads(then, robot_.sole_size, zmp),
-            SharedLoads(then, robot_.sole_size, planned));
+            SharedLoads(then, robot_.sole_size, without));
   HoldFeet(state, then, next);
   ShiftWaist(measured, then, zmp);
   return Bend(measured, next);

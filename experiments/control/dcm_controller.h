@@ -44,15 +44,15 @@ struct DcmOptions {
 
 /// Follows a plan as the field's stabilizers do: feedback of the divergent component of motion
 /// ξ = c + ċ/ω asks for a ZMP within the soles, the feet share it, ankles and legs give way until
-/// the soles' loads are what was asked for. Footsteps and their times are the plan's.
-/// Source: [Englsberger2015] §III, [Kajita2010] §III, [Caron2019] §III; experiments/README.md,
-/// "Tracking controllers".
+/// the soles' loads are what was asked for. A foot that meets the floor early or late stays there
+/// or goes on down. Footsteps and their times are the plan's. Source: [Englsberger2015] §III,
+/// [Kajita2010] §III, [Caron2019] §III; experiments/README.md, "Tracking controllers".
 class DcmController final : public TrackingController {
  public:
   /// Borrows `robot`. Precondition: robot.masses.known().
   DcmController(const RobotModel& robot, const DcmOptions& options);
 
-  JointCommand Command(const MeasuredState& measured, const PlannedState& then,
+  JointCommand Command(const MeasuredState& measured, const PlannedState& planned,
                        const PlannedState& next) override;
   std::unique_ptr<TrackingController> Clone() const override;
 
@@ -63,8 +63,16 @@ class DcmController final : public TrackingController {
     Eigen::Vector2d at_once{0, 0};  // by the moment that is asked for beside the plan's [rad]
     Eigen::Vector3d turn{0, 0, 0};  // against the waist's lean, in W [rad]
     Eigen::Vector3d shift{0, 0, 0};  // against where the waist is [m]
+    // Of the floor that it met or misses: the sole's height off the plan [m].
+    double floor = 0.0;
+    double met = 0.0;  // planned height at which it met the floor in this flight; 0: not yet [m]
+    double missing = 0.0;  // for how long it has missed the floor since it should have landed [s]
+    bool pressed = true, landed = true;
   };
 
+  // A foot that meets the floor above its plan goes no deeper; one that misses it goes down until
+  // it meets it, and as long as it does, it is not on the floor: changes `then`.
+  void MeetFloor(const MeasuredState& measured, const PlannedState& next, PlannedState* then);
   void SenseError(const EstimatedState& state, const PlannedState& then);
   void TurnSoles(const MeasuredState& measured, const PlannedState& then,
                  const std::array<SoleLoad, 2>& wanted, const std::array<SoleLoad, 2>& planned);

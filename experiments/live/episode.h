@@ -11,6 +11,7 @@
 #include "experiments/live/replanner.h"
 #include "experiments/live/sensor.h"
 #include "experiments/live/world.h"
+#include "wpg/geometry/side.h"
 
 namespace halfstep {
 
@@ -102,6 +103,12 @@ struct EpisodeHooks {
   std::function<void(const std::string& reason)> on_wait = {};
   /// Whether no half-step is to begin for the time being, so that the robot comes to rest.
   std::function<bool()> held = {};
+  /// Why no foot may be lifted from this support foot for the time being, "": one may. An up
+  /// half-step begins only then. Empty: feet carry when they are planned to.
+  std::function<std::string(Side support)> waits = {};
+  /// What the robot that executes the walk has felt since the last call; `t`, `version` and `walk`
+  /// are filled in.
+  std::function<std::vector<EpisodeEvent>()> felt = {};
   /// Whether the robot that executes the walk has fallen; then the episode ends.
   std::function<bool()> fallen = {};
   std::stop_token stop = {};   ///< the robot comes to rest, then the episode ends, interrupted

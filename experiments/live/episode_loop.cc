@@ -130,16 +130,32 @@ void EpisodeLoop::Sense(double now) {
 }
 
 void EpisodeLoop::Advance(double now) {
+  if (hooks_.felt) {
+    for (const EpisodeEvent& event : hooks_.felt()) {
+      Tell(now, event.what, event.text, event.half_step);
+    }
+  }
   const bool held = IsToEnd() || (hooks_.held && hooks_.held());
-  if (held) executor_->Revoke();
-  if (held_ && !held) again_ = true;
+  const std::string awaited = Awaited(now);
+  if (held || !awaited.empty()) executor_->Revoke();
+  if ((held_ && !held) || (!awaited_.empty() && awaited.empty())) again_ = true;
   held_ = held;
+  awaited_ = awaited;
   const bool stopped = executor_->stopped();
   for (const int half_step : executor_->Advance(now + options_.period)) Begins(half_step);
   if (!executor_->stopped() || stopped) return;
-  Tell(now, "stopped", Formatted("at rest from %.3f s on", executor_->rests_from()),
-       executor_->begun());
+  const std::string text = Formatted("at rest from %.3f s on", executor_->rests_from());
+  Tell(now, "stopped", text + (awaited.empty() ? "" : ": ") + awaited, executor_->begun());
   again_ = true;
+}
+
+std::string EpisodeLoop::Awaited(double now) const {
+  const SuperposedWalk& walk = executor_->walk();
+  const int next = executor_->begun() + 1;
+  const bool lifts = next % 2 == 0 && next < walk.num_half_steps();
+  if (!hooks_.waits || !lifts) return "";
+  if (!executor_->stopped() && walk.start_of(next) >= now + options_.period) return "";
+  return hooks_.waits(walk.half_step(next).support);
 }
 
 void EpisodeLoop::Begins(int half_step) {
@@ -156,7 +172,7 @@ void EpisodeLoop::Begins(int half_step) {
 }
 
 bool EpisodeLoop::NeedsWork(double now) const {
-  if (held_) return false;
+  if (held_ || !awaited_.empty()) return false;
   if (again_ || world_->sound_since > checked_->version) return true;
   if (world_->version == checked_->version) return false;
   if (stuck_) {

@@ -32,6 +32,8 @@ class EpisodeLoop {
   // Takes in the frames that have arrived by now.
   void Sense(double now);
   void Advance(double now);
+  // Why the robot cannot begin the next half-step; "": it can.
+  std::string Awaited(double now) const;
   void Begins(int half_step);
   bool NeedsWork(double now) const;
   void Ask(double now);
@@ -58,6 +60,7 @@ class EpisodeLoop {
   std::vector<bool> smoothed_;
   int robot_through_ = -1;
   bool held_ = false;
+  std::string awaited_;
   // What the thinker does.
   bool thinking_ = false;
   double asked_ = 0.0;

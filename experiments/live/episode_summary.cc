@@ -50,6 +50,8 @@ EpisodeSummary Summarize(const Episode& episode, const TrueWorld* truth, const R
   summary.contradicted = CountOf(episode, "contradicted");
   summary.stops = CountOf(episode, "stopped");
   summary.unsafe = CountOf(episode, "unsafe");
+  summary.early = CountOf(episode, "early");
+  summary.late = CountOf(episode, "late");
   summary.waited = episode.waited;
   if (truth != nullptr) {
     summary.nearest = NearestApproach(episode, *truth, robot, 0.005, 0.3);
@@ -76,6 +78,10 @@ std::string SummaryScreen(const Episode& episode, const EpisodeSummary& summary,
   text += "world        " + Counted(summary.contradicted, "contradiction", "contradictions") +
           ", " + Counted(summary.stops, "stop", "stops") + ", " + std::to_string(summary.refused) +
           " refused, " + std::to_string(summary.unsafe) + " times no safe way\n";
+  if (summary.early + summary.late > 0) {
+    text += "contact      " + std::to_string(summary.early) + " early, " +
+            std::to_string(summary.late) + " late\n";
+  }
   if (!summary.latencies.empty()) {
     std::vector<double> sorted = summary.latencies;
     std::ranges::sort(sorted);
@@ -106,6 +112,8 @@ std::string SummaryJson(const Episode& episode, const EpisodeSummary& summary,
                                  {"contradicted", summary.contradicted},
                                  {"stops", summary.stops},
                                  {"unsafe", summary.unsafe},
+                                 {"early", summary.early},
+                                 {"late", summary.late},
                                  {"latencies_s", summary.latencies},
                                  {"begun_meanwhile", summary.begun_meanwhile}};
   if (const std::optional<Approach>& nearest = summary.nearest) {

@@ -21,6 +21,7 @@ struct EpisodeSummary {
   int changed = 0, shortened = 0, smoothed = 0, resumed = 0;  ///< successors that were handed over
   /// How often: no successor, a world contradicted, a stop, no safe way.
   int refused = 0, contradicted = 0, stops = 0, unsafe = 0;
+  int early = 0, late = 0;  ///< contacts of feet, in physics
   /// From when the world that asked for it was measured to the hand-over, of each walk with other
   /// footsteps [s]; half-steps that began meanwhile, before the first changed one.
   std::vector<double> latencies;

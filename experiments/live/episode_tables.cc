@@ -19,7 +19,8 @@ CsvFile EventsCsv(const Episode& episode, size_t from) {
   CsvWriter csv(
       {{"t_s", kNumber, "s", "when"},
        {"event", kString, "",
-        "measured, lost, contradicted, begins, near, handed_over, refused, unsafe, stopped"},
+        "measured, lost, contradicted, begins, near, early, late, pushed, handed_over, refused, "
+        "unsafe, stopped"},
        {"world", kInteger, "", "version that was known then"},
        {"walk", kInteger, "", "in execution then, from 0"},
        {"half_step", kInteger, "", "that it is about, from 1; 0: none"},

@@ -168,6 +168,12 @@ void DeclareLive(Fields& fields, LiveOptions* c, double half_step, const Scene* 
                  {.meaning = "junctions whose overlaps are found in one go", .min = 1, .max = 100});
   fields.Integer("smooth_ahead", &c->smooth_ahead,
                  {.meaning = "overlaps are found so many junctions ahead", .min = 1, .max = 1000});
+  fields.Number("down_up_cap", &c->down_up_cap,
+                {.meaning = "largest overlap of a step with the next as a fraction of its natural "
+                            "bound; 0.45: steps begin after the landing before them, so that in "
+                            "physics none begins when that comes late",
+                 .min = 0,
+                 .max = 1});
   fields.Number("tolerance_s", &c->tolerance,
                 {.meaning = "of these overlaps", .unit = "s", .min = 1e-4, .max = 0.5});
   fields.Misplaced("refine", "is gone, since it was not known to pay (leave it out)");

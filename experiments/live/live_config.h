@@ -56,7 +56,8 @@ struct LiveOptions {
   double longest = 120.0;  ///< an episode ends then [s]
   int spare_boxes = 0;     ///< not there until they appear
   int smooth_at_once = 3;  ///< junctions
-  int smooth_ahead = 8;    ///< junctions behind the latest half-step that has begun
+  double down_up_cap = 1.0;         ///< of overlaps between steps, share of their natural bounds
+  int smooth_ahead = 8;             ///< junctions behind the latest half-step that has begun
   double tolerance = 0.02;          ///< of their overlaps [s]
   SensingConfig sensing;            ///< how the world is measured
   BudgetConfig budget;              ///< what computing costs in lockstep

@@ -77,7 +77,7 @@ bool FindOverlaps(const SafetyCheck& safety, const LiveConfig& config, double fr
       Dichotomy(problem,
                 {.tolerance = config.live.tolerance,
                  .up_down_cap = cap,
-                 .down_up_cap = cap,
+                 .down_up_cap = std::min(cap, config.live.down_up_cap),
                  .accepted_start = AcceptedInParts::Walk(proposal->plan.parameters),
                  .cheaper = sampled},
                 monitor);

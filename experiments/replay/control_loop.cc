@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace halfstep::replay {
 namespace {
@@ -31,15 +32,23 @@ ControlLoop::ControlLoop(std::shared_ptr<const PlannedStates> plan,
 
 ControlLoop::ControlLoop(const ControlLoop& other)
     : plan_(other.plan_),
-      controller_(other.controller_->Clone()),
+      controller_(other.controller_ ? other.controller_->Clone() : nullptr),
       sensors_(other.sensors_),
       under_way_(other.under_way_),
+      arrived_(other.arrived_),
       step_(other.step_),
       begun_(other.begun_),
       from_(other.from_),
       to_(other.to_) {}
 
-void ControlLoop::CommandNext(double now) {
+bool ControlLoop::Receives(double now) {
+  if (under_way_.empty() || under_way_.front().t > now - sensors_.delay() + 1e-9) return false;
+  arrived_ = std::move(under_way_.front());
+  under_way_.pop_front();
+  return true;
+}
+
+void ControlLoop::CommandNext(double now, bool measured) {
   const control::PlannedState next = plan_->At(now + kControlPeriod);
   if (step_ == 0) {
     const control::PlannedState first = plan_->At(now);
@@ -48,12 +57,10 @@ void ControlLoop::CommandNext(double now) {
   begun_ = now;
   from_ = to_;
   to_ = {next.q, next.speeds};
-  if (under_way_.empty() || under_way_.front().t > now - sensors_.delay() + 1e-9) return;
-  to_ = controller_->Command(under_way_.front(), plan_->At(under_way_.front().t), next);
-  under_way_.pop_front();
+  if (measured) to_ = controller_->Command(*arrived_, plan_->At(arrived_->t), next);
 }
 
-JointTargets ControlLoop::TargetsAt(double t, const Simulation& robot) {
+std::optional<JointTargets> ControlLoop::TargetsAt(double t, const Simulation& robot) {
   const double dt = robot.timestep(), now = t - dt;
   const long period = std::lround(kControlPeriod / dt), delay = std::lround(sensors_.delay() / dt);
   if ((step_ + delay) % period == 0) {
@@ -61,8 +68,12 @@ JointTargets ControlLoop::TargetsAt(double t, const Simulation& robot) {
     state.t = now;
     under_way_.push_back(sensors_.Measured(std::move(state)));
   }
-  if (step_ % period == 0) CommandNext(now);
+  if (step_ % period == 0) {
+    const bool measured = Receives(now);
+    if (controller_) CommandNext(now, measured);
+  }
   ++step_;
+  if (!controller_) return std::nullopt;
   return Between(from_, to_, (t - begun_) / kControlPeriod);
 }
 

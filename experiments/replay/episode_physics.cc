@@ -4,48 +4,77 @@
 #include <cmath>
 #include <utility>
 
+#include "experiments/control/state_estimate.h"
 #include "experiments/replay/planned_row.h"
-#include "experiments/replay/robot_physics.h"
 #include "experiments/replay/simulated_obstacles.h"
 #include "planner/scene/no_step_areas.h"
+#include "wpg/files/text.h"
 #include "wpg/nth.h"
+#include "wpg/robot/gravity.h"
 
 namespace halfstep::replay {
 namespace {
 
-// The tick before, this one, and two to come.
-constexpr int kFirstRow = -1, kLastRow = 2;
+const RobotModel& ModelOf(const EpisodeRobot& robot) { return robot.setup.robot.model; }
+
+// The push that acts in the period that begins then.
+std::optional<Push> PushIn(const std::vector<Push>& pushes, double begin, double period) {
+  for (const Push& push : pushes) {
+    if (push.at < begin + period && push.at + push.duration > begin) return push;
+  }
+  return std::nullopt;
+}
+
+std::string TextOf(const control::Contact& contact) {
+  return std::string(Name(contact.foot)) +
+         (contact.late > 0.0
+              ? Formatted(" foot carries %.0f ms later than planned", 1e3 * contact.late)
+              : Formatted(" foot met the floor %.0f ms earlier than planned, %.1f mm higher",
+                          -1e3 * contact.late, 1e3 * contact.height));
+}
 
 }  // namespace
 
 ReferenceMotion EpisodePhysics::MotionAbout(const SuperposedWalk& walk, double begin) const {
+  const double period = options_.row_period;
+  int first = -1, last = 2;  // the tick before, this one, and two to come
+  if (const std::optional<ControlSetup>& control = robot_.setup.control) {
+    first -= static_cast<int>(std::ceil(control->sensors.delay / period)) + 1;
+    last += static_cast<int>(std::ceil(control::kControlPeriod / period));
+  }
   std::vector<TrajectoryRow> rows;
-  for (int i = kFirstRow; i <= kLastRow; ++i) {
-    const double t = begin + i * options_.row_period;
-    rows.push_back(PlannedRow(robot_.model, walk, t));
+  for (int i = first; i <= last; ++i) {
+    rows.push_back(PlannedRow(ModelOf(robot_), walk, begin + i * period));
   }
   return ReferenceMotion(std::move(rows));
 }
 
-EpisodePhysics::EpisodePhysics(const WholeRobot& robot, const TrueWorld& truth,
-                               const LiveOptions& options, const std::optional<ModelOptions>& model)
-    : robot_(robot),
+EpisodePhysics::EpisodePhysics(EpisodeRobot robot, const TrueWorld& truth,
+                               const LiveOptions& options)
+    : robot_(std::move(robot)),
       truth_(truth.SeenFrom([](double) { return Pose2(); })),
-      options_(PlayOptionsOf(robot.model)),
-      model_(model.value_or(PhysicsOf(robot.model))) {
+      options_(robot_.setup.play),
+      contacts_(ModelOf(robot_)) {
   options_.row_period = options.period;
   options_.drift_window = options.horizon;
   // A period is a whole number of time steps.
-  model_.timestep = options.period / std::ceil(options.period / model_.timestep - 1e-9);
+  double& timestep = robot_.setup.model.timestep;
+  timestep = options.period / std::ceil(options.period / timestep - 1e-9);
 }
 
 void EpisodePhysics::Begin(const ReferenceMotion& motion, double waited) {
   since_ = truth_.Since(waited);
-  const std::vector<SimulatedObstacle> obstacles = ObstaclesOf(*since_).obstacles;
-  const auto& [model, tree] = robot_;
-  const Simulation simulation(MujocoModel(model, tree, model_, obstacles), model,
-                              Nth(tree.urdf.links, tree.waist).name, obstacles);
-  player_.emplace(simulation, motion, options_);
+  ReplaySetup& setup = robot_.setup;
+  setup.obstacles = ObstaclesOf(*since_).obstacles;
+  setup.play = options_;
+  SeedDraws draws(1);
+  const Simulation simulation =
+      setup.Robot(FloorAhead(setup.relief, motion.rows().front(), setup.robot.model, &draws));
+  PlayOptions play = setup.PlayOf(simulation, motion);
+  if (!play.control) {
+    play.control = std::make_shared<ControlLoop>(control::Sensors({}, simulation.weight()));
+  }
+  player_.emplace(simulation, motion, play);
   worlds_ = {Pose2()};
 }
 
@@ -58,7 +87,13 @@ void EpisodePhysics::Play(const EpisodeTick& tick) {
 
 void EpisodePhysics::PlayPeriod(const SuperposedWalk& walk, double begin) {
   const ReferenceMotion motion = MotionAbout(walk, begin);
-  const ReplayRow& row = rows_.emplace_back(player_->Advance(motion, std::nullopt));
+  if (robot_.setup.control) {
+    plan_ = std::make_shared<PlannedStates>(ModelOf(robot_), motion);
+    player_->control().Follow(plan_);
+  }
+  const ReplayRow& row = rows_.emplace_back(
+      player_->Advance(motion, PushIn(robot_.pushes, begin, options_.row_period)));
+  Feel(walk);
   worlds_.push_back(worlds_.back());
   if (!row.support) return;
   const Eigen::Vector4d sole =
@@ -70,6 +105,47 @@ void EpisodePhysics::PlayPeriod(const SuperposedWalk& walk, double begin) {
   no_step_ = std::min(no_step_, NoStepAt(row.t, X_US));
 }
 
+void EpisodePhysics::Feel(const SuperposedWalk& walk) {
+  const std::optional<control::MeasuredState>& measured = player_->control().arrived();
+  if (!measured) return;
+  if (plan_) FeelPush(*measured);
+  const std::optional<control::Contact> contact = contacts_.Look(*measured, walk);
+  if (!contact) return;
+  felt_.push_back({.t = contact->t,
+                   .what = contact->late > 0.0 ? "late" : "early",
+                   .half_step = contact->half_step,
+                   .text = TextOf(*contact)});
+}
+
+// A ZMP in the middle of one sole brings the DCM back from within the sole; half of that is left
+// for where the planned ZMP is beside the middle.
+void EpisodePhysics::FeelPush(const control::MeasuredState& measured) {
+  constexpr double kFilter = 0.01;  // [s]
+  const RobotModel& model = ModelOf(robot_);
+  const control::PlannedState then = plan_->At(measured.t);
+  const control::EstimatedState is = control::EstimateState(model, measured, then);
+  const double omega = std::sqrt(kGravity / model.com_height);
+  const Eigen::Vector3d off = is.com - then.com + (is.velocity - then.com_velocity) / omega;
+  const double period = options_.row_period;
+  dcm_off_ += period / (kFilter + period) * (off.head<2>() - dcm_off_);
+  const Eigen::Isometry3d X_BW = then.X_WB.inverse();
+  const Eigen::Vector3d off_B = X_BW.linear() * Eigen::Vector3d(dcm_off_.x(), dcm_off_.y(), 0.0);
+  const double share = (off_B.head<2>().cwiseAbs().cwiseQuotient(model.sole_size)).maxCoeff();
+  const bool was_pushed = std::exchange(pushed_, share > (pushed_ ? 0.125 : 0.25));
+  if (was_pushed || !pushed_) return;
+  felt_.push_back({.what = "pushed",
+                   .text = Formatted("the DCM is %.1f mm off its plan: no foot is lifted until it "
+                                     "is back",
+                                     1e3 * dcm_off_.norm())});
+}
+
+std::string EpisodePhysics::Waits(Side support) const {
+  if (contacts_.misses(support)) {
+    return "the " + std::string(Name(support)) + " foot does not carry yet";
+  }
+  return pushed_ ? "the DCM is off its plan" : "";
+}
+
 double EpisodePhysics::NoStepAt(double t, const Pose2& X_US) const {
   double least = std::numeric_limits<double>::infinity();
   const Scene& all = since_->scene();
@@ -77,7 +153,7 @@ double EpisodePhysics::NoStepAt(double t, const Pose2& X_US) const {
     if (!since_->AreaIsThere(i, t)) continue;
     Scene scene;
     scene.no_step = {all.no_step[i]};
-    const NoStepAreas area(scene, robot_.model.sole_outline);
+    const NoStepAreas area(scene, ModelOf(robot_).sole_outline);
     least = std::min(least, area.NearestTo(X_US).distance);
   }
   return least;
@@ -98,8 +174,10 @@ PhysicalOutcome EpisodePhysics::Finish(const Episode& episode) {
   PhysicalOutcome outcome;
   outcome.notes = all.notes;
   outcome.replayed.method = "physics";
+  outcome.replayed.controller = robot_.controller;
+  outcome.pushes = robot_.pushes;
   outcome.replayed.window = options_.drift_window;
-  for (const RobotBody& body : robot_.model.bodies) outcome.replayed.bodies.push_back(body.name);
+  for (const RobotBody& body : ModelOf(robot_).bodies) outcome.replayed.bodies.push_back(body.name);
   for (const SimulatedObstacle& obstacle : all.obstacles) {
     outcome.replayed.obstacles.push_back(obstacle.name);
   }
@@ -124,7 +202,7 @@ PhysicalOutcome EpisodePhysics::Finish(const Episode& episode) {
   result = ResultOf(std::move(rows_), player_->touches(), motion.end(), player_->robot().weight(),
                     options_);
   result.drift = player_->DriftFrom(motion);
-  CompareMassModel(robot_.model, robot_.tree, motion, &result);
+  CompareMassModel(ModelOf(robot_), robot_.setup.robot.tree, motion, &result);
   return outcome;
 }
 
@@ -133,7 +211,7 @@ ReferenceMotion EpisodePhysics::Executed(const SuperposedWalk& walk, double end)
   const long full = static_cast<long>(std::floor(end / options_.row_period * (1.0 - 1e-12)));
   for (long i = 0; i <= full + 1; ++i) {
     const double t = i <= full ? static_cast<double>(i) * options_.row_period : end;
-    rows.push_back(PlannedRow(robot_.model, walk, t));
+    rows.push_back(PlannedRow(ModelOf(robot_), walk, t));
   }
   return ReferenceMotion(std::move(rows));
 }

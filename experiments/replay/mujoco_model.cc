@@ -125,8 +125,9 @@ class Writer {
     for (const FloorPlate& plate : floor.plates) {
       const Eigen::Vector3d half(plate.size.x() / 2, plate.size.y() / 2, kPlateHalf);
       const Isometry3d X = floor.X_WFloor * plate.X_FP * Eigen::Translation3d(0, 0, -kPlateHalf);
-      text_ += std::string("    <geom type=\"box\"") + Attribute("size", Numbers(half)) +
-               PlaceAttributes(X) + kFloorBits + Contact() + "/>\n";
+      text_ += std::string("    <geom ") + (plate.at_start ? "name=\"start\" " : "") +
+               "type=\"box\"" + Attribute("size", Numbers(half)) + PlaceAttributes(X) + kFloorBits +
+               Contact() + "/>\n";
     }
   }
 

@@ -165,7 +165,12 @@ Eigen::Isometry3d Simulation::X_WFloor() const {
   const mjModel& model = *state_->model();
   const int floor = state_->layout->floor;
   const mjtNum *const p = model.geom_pos + 3 * floor, *const q = model.geom_quat + 4 * floor;
-  return Eigen::Translation3d(p[0], p[1], p[2]) * Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
+  const Eigen::Isometry3d X =
+      Eigen::Translation3d(p[0], p[1], p[2]) * Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
+  const int start = mj_name2id(&model, mjOBJ_GEOM, "start");
+  if (start < 0) return X;
+  const Vector3d middle = X.inverse() * Eigen::Map<const Vector3d>(model.geom_pos + 3 * start);
+  return X * Eigen::Translation3d(0.0, 0.0, middle.z() + model.geom_size[3 * start + 2]);
 }
 
 Eigen::Vector2d Simulation::sole_size() const {

@@ -30,6 +30,16 @@ ordered_json RecordOf(const PhysicalOutcome& outcome) {
                        {"in_goal", outcome.in_goal},
                        {"goal_off_m", outcome.goal_off}};
   if (std::isfinite(outcome.no_step)) json["no_step_m"] = outcome.no_step;
+  for (const Push& push : outcome.pushes) {
+    json["pushed"].push_back({{"at_s", push.at},
+                              {"for_s", push.duration},
+                              {"x_n_s", push.impulse_W.x()},
+                              {"y_n_s", push.impulse_W.y()}});
+  }
+  const ordered_json told = ordered_json::parse(ReplayedJson(outcome.replayed));
+  for (const char* key : {"controller", "tracking"}) {
+    if (told.contains(key)) json[key] = told[key];
+  }
   return json;
 }
 
@@ -44,6 +54,10 @@ std::string PhysicsText(const PhysicalOutcome& outcome) {
   if (std::isfinite(outcome.no_step)) {
     text += Formatted("  soles that carry: no nearer than %.1f mm to a no-step area\n",
                       1e3 * outcome.no_step);
+  }
+  for (const Push& push : outcome.pushes) {
+    text += Formatted("  pushed at %.2f s for %.2f s: x %.1f N s, y %.1f N s\n", push.at,
+                      push.duration, push.impulse_W.x(), push.impulse_W.y());
   }
   for (const std::string& note : outcome.notes) text += "  " + note + "\n";
   return text + "\n" + kReplayDisclaimer + "\n";

@@ -78,6 +78,8 @@ class Player {
   /// Plays the next row period of the motion, with the part of the push that falls into it. What
   /// the motion is at other times does not matter.
   ReplayRow Advance(const ReferenceMotion& motion, const std::optional<Push>& push);
+  /// The copy of PlayOptions::control. Precondition: there is one.
+  ControlLoop& control() { return *control_; }
   /// Contacts with obstacles from t = 0 on.
   const std::vector<TouchRecord>& touches() const { return touches_.records(); }
 
@@ -92,7 +94,8 @@ class Player {
   double StrayFrom(const TrajectoryRow& planned, const Eigen::Vector3d& shift) const;
   // Of the time step that ends at t.
   JointTargets TargetsAt(double t, const ReferenceMotion& motion) {
-    return control_ ? control_->TargetsAt(t, robot_) : motion.TargetsAt(t);
+    const auto commanded = control_ ? control_->TargetsAt(t, robot_) : std::nullopt;
+    return commanded ? *commanded : motion.TargetsAt(t);
   }
 
   Simulation robot_;

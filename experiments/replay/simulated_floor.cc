@@ -1,6 +1,7 @@
 #include "experiments/replay/simulated_floor.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <optional>
 
@@ -22,9 +23,10 @@ constexpr double kMostHeight = 0.1;    // of plates [m]
 constexpr double kMostDegrees = 20.0;  // of a slope: with a friction of 0.5 soles slip at 26
 
 [[noreturn]] void Refuse(const std::string& who, const std::string& text) {
-  throw InputError({who + " " + Quote(text) +
-                    ": is no floor (valid: plates=H with H from 0 to 0.1 m, slope=A with A from 0 "
-                    "to 20 degrees, or plates=H,slope=A)"});
+  throw InputError(
+      {who + " " + Quote(text) +
+       ": is no floor (valid: plates=H with H from 0 to 0.1 m, curb=H with H from −0.1 "
+       "to 0.1 m, slope=A with A from 0 to 20 degrees, or several with commas)"});
 }
 
 // Where soles come to stand after the first row.
@@ -77,7 +79,7 @@ bool AreApart(const SupportPolygon& one, const SupportPolygon& other) {
 
 FloorRelief ParseRelief(const std::string& who, const std::string& text) {
   FloorRelief relief;
-  std::optional<double> plates, slope;
+  std::optional<double> plates, curb, slope;
   size_t begin = 0;
   while (begin <= text.size()) {
     const size_t end = std::min(text.find(',', begin), text.size());
@@ -86,26 +88,55 @@ FloorRelief ParseRelief(const std::string& who, const std::string& text) {
     const std::string key = part.substr(0, equals);
     const NumberText number = ParseNumber(part.substr(std::min(equals + 1, part.size())));
     std::optional<double>* const value = key == "plates"  ? &plates
+                                         : key == "curb"  ? &curb
                                          : key == "slope" ? &slope
                                                           : nullptr;
-    const double most = key == "plates" ? kMostHeight : kMostDegrees;
+    const double most = key == "slope" ? kMostDegrees : kMostHeight;
+    const double least = key == "curb" ? -kMostHeight : 0.0;
     if (value == nullptr || *value || number.kind != NumberText::Kind::kNumber ||
-        !(number.value >= 0.0 && number.value <= most)) {
+        !(number.value >= least && number.value <= most)) {
       Refuse(who, text);
     }
     *value = number.value;
     begin = end + 1;
   }
   relief.plates = plates.value_or(0.0);
+  relief.curb = curb.value_or(0.0);
   relief.slope = slope.value_or(0.0) * std::numbers::pi / 180;
   return relief;
 }
 
+SimulatedFloor FloorAhead(const FloorRelief& relief, const TrajectoryRow& start,
+                          const RobotModel& robot, SeedDraws* draws) {
+  constexpr double kLarge = 20.0;  // length of plates [m]
+  constexpr double kCurb = 0.6;    // where it begins, of a sole's length before its middle
+  SimulatedFloor floor;
+  floor.X_WFloor = DrawPlane(relief.slope, start, draws);
+  if (relief.curb == 0.0) return floor;
+  // The higher part is plates on the lower one, seen from the left sole: where it ends on the way,
+  // and in the middle between both soles.
+  const Pose2 X_WL = PlaceOf(start.soles[0]);
+  const double x = kCurb * robot.sole_size.x(), large = 0.5 * kLarge;
+  const double y = 0.5 * (X_WL.Inverse() * PlaceOf(start.soles[1]).position()).y();
+  const auto add = [&](double at_x, double at_y, double length, double width, bool at_start) {
+    const Pose2 X = X_WL * Pose2{at_x, at_y, 0.0};
+    floor.plates.push_back({TrajectoryRow::Upright({X.x, X.y, std::abs(relief.curb), X.yaw}),
+                            Eigen::Vector2d(length, width), at_start});
+  };
+  if (relief.curb > 0.0) {
+    add(x + large, y - large, kLarge, kLarge, false);
+  } else {
+    floor.X_WFloor = floor.X_WFloor * Eigen::Translation3d(0, 0, relief.curb);
+    add(x - large, y, kLarge, 2 * kLarge, true);
+    add(x + large, y + large, kLarge, kLarge, false);
+  }
+  return floor;
+}
+
 SimulatedFloor DrawFloor(const FloorRelief& relief, const std::vector<TrajectoryRow>& rows,
                          const RobotModel& robot, SeedDraws* draws) {
-  SimulatedFloor floor;
   const TrajectoryRow& start = rows.front();
-  floor.X_WFloor = DrawPlane(relief.slope, start, draws);
+  SimulatedFloor floor = FloorAhead(relief, start, robot, draws);
   const Eigen::Vector2d half = 0.5 * robot.sole_size;
   for (const Eigen::Vector4d& landing : Landings(rows)) {
     const Pose2 shift{draws->Between(-half.x(), half.x()), draws->Between(-half.y(), half.y()),

@@ -68,7 +68,7 @@ class Simulation {
   double timestep() const;  ///< [s]
   /// The weight of the model [N].
   double weight() const;
-  /// The model's floor (SimulatedFloor).
+  /// The model's floor (SimulatedFloor); where the robot begins on a plate, that plate's height.
   Eigen::Isometry3d X_WFloor() const;
   /// Length and width of a sole [m].
   Eigen::Vector2d sole_size() const;

@@ -99,6 +99,9 @@ const words = {
   refused: ({ text }) => `a walk was refused: ${text}`,
   unsafe: ({ text }) => `no safe way on was found: ${text}`,
   stopped: ({ text, half_step: last }) => `stops after half-step ${last}: ${text}`,
+  early: ({ text }) => text,
+  late: ({ text }) => text,
+  pushed: ({ text }) => `pushed: ${text}`,
   error: ({ text }) => `refused: ${text}`,
 };
 

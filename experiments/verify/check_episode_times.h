@@ -6,9 +6,9 @@
 
 namespace halfstep::verify {
 
-/// Whether the times of manifest.json fit what was recorded: nothing is later than `end_s`, nothing
-/// was measured before the robot began to wait, and, where a stand-in senses, the last frame is no
-/// longer before the end than the next one would have come.
+/// Whether the times of manifest.json fit what was recorded: nothing is later than `end_s`, and,
+/// where a stand-in senses, nothing was measured before the robot began to wait, and the last frame
+/// is no longer before the end than the next one would have come.
 void CheckEpisodeTimes(const EpisodeText& episode, const EpisodeManifest& manifest,
                        const LiveOptions& options, Findings* findings);
 

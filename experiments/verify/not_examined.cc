@@ -103,7 +103,7 @@ constexpr NotExamined kOfEpisode[] = {
     {"manifest.json", "build_type", kBuild},
     {"manifest.json", "message", kHow},
     {"manifest.json", "waited_s",
-     "how long the robot waited before time 0; but that nothing was measured before that"},
+     "how long the robot waited before time 0; but that no stand-in measured before that"},
     {"manifest.json", "end_s",
      "to within the time between two frames of a stand-in; of `killed` not at all"},
     {"manifest.json", "ending", "which of those that are not `arrived`"},

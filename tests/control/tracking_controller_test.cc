@@ -250,19 +250,19 @@ TEST(ReplayCommandControllers, AProgramAddsItsOwnAndMistakesAreTold) {
   command.run = run;
   command.method = "raw";
   command.quiet = true;
-  command.controllers.Add("mine",
+  command.simulated.controllers.Add("mine",
                           [](const ControlledRobot&) { return std::make_unique<PlanItself>(); });
-  EXPECT_THROW(command.controllers.Add("mine", {}), std::logic_error);
+  EXPECT_THROW(command.simulated.controllers.Add("mine", {}), std::logic_error);
   const auto refused = [&command] { Replay(command); };
-  command.sensor_delay = 0.01;
+  command.simulated.sensor_delay = 0.01;
   EXPECT_THAT(RefusalOf(refused), HasSubstr("--sensor-delay: without a --controller"));
-  command.controller = "yours";
+  command.simulated.controller = "yours";
   EXPECT_THAT(RefusalOf(refused),
               HasSubstr("--controller: there is no yours (valid: none, dcm, mine)"));
-  command.controller = "mine";
-  command.sensor_delay = -1.0;
+  command.simulated.controller = "mine";
+  command.simulated.sensor_delay = -1.0;
   EXPECT_THAT(RefusalOf(refused), HasSubstr("--sensor-delay -1: no delay (valid: 0 … 1 s)"));
-  command.sensor_delay = 0.01;
+  command.simulated.sensor_delay = 0.01;
   SKIP_WITHOUT_SIMULATION();
   EXPECT_EQ(Replay(command), kSuccess);
   EXPECT_NEAR(PlanItself::latest_age_, 0.01 + kControlPeriod, 1e-9);

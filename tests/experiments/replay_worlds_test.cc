@@ -268,10 +268,12 @@ TEST(ReplayWorlds, PlatesTiltTheRobot) {
 }
 
 TEST(ReplayWorlds, AFloorThatIsNoneIsRefused) {
-  for (const char* text : {"", "plates", "plates=", "plates=0.2", "plates=-1", "slope=21",
-                           "slope=1,slope=2", "plates=0.01,", "hills=1", "plates=nan"}) {
-    EXPECT_THAT(RefusalOf([&] { ParseRelief("--floor", text); }),
-                HasSubstr("is no floor (valid: plates=H with H from 0 to 0.1 m, slope=A"))
+  for (const char* text :
+       {"", "plates", "plates=", "plates=0.2", "plates=-1", "slope=21", "slope=1,slope=2",
+        "plates=0.01,", "hills=1", "plates=nan", "curb=-0.2"}) {
+    EXPECT_THAT(
+        RefusalOf([&] { ParseRelief("--floor", text); }),
+        HasSubstr("is no floor (valid: plates=H with H from 0 to 0.1 m, curb=H with H from"))
         << text;
   }
 }

@@ -8,12 +8,15 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/commands/commands.h"
+#include "experiments/replay/physics_record.h"
 #include "experiments/replay/simulation.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/parsed_csv.h"
 #include "tests/experiments/short_episode.h"
 #include "tests/live/small_episode.h"
 #include "tests/temporary_folder.h"
+#include "wpg/nth.h"
+#include "wpg/robot/gravity.h"
 
 namespace halfstep::replay {
 namespace {
@@ -33,18 +36,28 @@ struct PlayedInPhysics {
   Episode episode;
   PhysicalOutcome outcome;
 };
+EpisodeRobot RobotOf(const ModelOptions& model = {}) {
+  return {.setup = {.robot = Hrp2(),
+                    .obstacles = {},
+                    .model = model,
+                    .relief = {},
+                    .play = {},
+                    .control = {}}};
+}
 PlayedInPhysics PlayInPhysics(const Scene& scene, const LiveConfig& config,
-                              const ModelOptions& model = {}, bool feedback = true) {
+                              const EpisodeRobot& robot = RobotOf(), bool feedback = true) {
   const SmallWorld& small = SmallWorld::Get();
   const TrueWorld truth(scene, config.experiment.goal, config.live);
   const Replanner replanner(small.place, config, *small.baked.cached.volumes);
-  EpisodePhysics physics(Hrp2(), truth, config.live, model);
+  EpisodePhysics physics(robot, truth, config.live);
   StandInSensor sensor(feedback ? physics.SeenByRobot() : truth, config.live, 1);
   PlayedInPhysics played;
   played.episode = RunLockstep(replanner, &sensor, small.start,
                                {.on_tick = [&](const EpisodeTick& tick) { physics.Play(tick); },
                                 .on_wait = {},
                                 .held = {},
+                                .waits = [&](Side support) { return physics.Waits(support); },
+                                .felt = [&] { return physics.TakeFelt(); },
                                 .fallen = [&] { return physics.fallen(); },
                                 .stop = {}});
   played.outcome = physics.Finish(played.episode);
@@ -117,11 +130,11 @@ TEST(EpisodePhysicsTest, WhatIsNotSeenIsTouched) {
 }
 
 /// Servos so soft that the robot strays by centimetres.
-ModelOptions Soft(double stiffness, double damping) {
+EpisodeRobot Soft(double stiffness, double damping) {
   ModelOptions model;
   model.stiffness = stiffness;
   model.damping = damping;
-  return model;
+  return RobotOf(model);
 }
 
 TEST(EpisodePhysicsTest, ARobotThatFallsEndsTheEpisode) {
@@ -139,7 +152,7 @@ TEST(EpisodePhysicsTest, FeedbackMeetsTheGoalWhereItIs) {
   SKIP_WITHOUT_PHYSICS();
   LiveConfig config = SmallWorld::Get().config;
   config.experiment.goal.radius = 0.06;
-  const ModelOptions soft = Soft(3000.0, 300.0);
+  const EpisodeRobot soft = Soft(3000.0, 300.0);
   const PhysicalOutcome with = PlayInPhysics({}, config, soft).outcome;
   const PhysicalOutcome without = PlayInPhysics({}, config, soft, /*feedback=*/false).outcome;
   EXPECT_TRUE(with.replayed.result.stayed_up);
@@ -172,6 +185,120 @@ TEST(EpisodePhysicsTest, SeesTheWorldFromItsSupportFoot) {
   const Eigen::Isometry3d& seen = last.scene.obstacles[0].X_WO;
   EXPECT_TRUE(seen.isApprox(ToIsometry(expected, seen.translation().z()), 1e-9));
   EXPECT_GT((seen.translation() - Eigen::Vector3d(1.0, 1.5, 0.02)).norm(), 0.005);
+}
+
+/// A short walk: three steps.
+LiveConfig ThreeSteps() {
+  LiveConfig config = Covering();
+  config.experiment.goal.X_WG.x = 0.45;
+  return config;
+}
+
+/// Moved by the controller, whose sensors have noise.
+EpisodeRobot Controlled(EpisodeRobot robot) {
+  robot.setup.control = {.make =
+                             [](const control::ControlledRobot& of) {
+                               return control::Controllers::Standard().Make("dcm", of);
+                             },
+                         .sensors = {.delay = 0.005, .seed = 1}};
+  robot.controller = "dcm";
+  return robot;
+}
+
+TEST(EpisodePhysicsTest, AControllerExecutesTheWalkAndTheSameAgainToTheByte) {
+  SKIP_WITHOUT_PHYSICS();
+  EpisodeRobot soft = Soft(10000.0, 300.0);
+  soft.controller = "none";
+  const PlayedInPhysics open = PlayInPhysics({}, ThreeSteps(), soft);
+  const PlayedInPhysics one = PlayInPhysics({}, ThreeSteps(), Controlled(soft));
+  const PlayedInPhysics two = PlayInPhysics({}, ThreeSteps(), Controlled(soft));
+  EXPECT_EQ(one.episode.ending, EpisodeEnding::kArrived);
+  EXPECT_EQ(TimesOf(one.episode, "early") + TimesOf(one.episode, "late"), 0);
+  EXPECT_EQ(TimesOf(one.episode, "stopped"), 0);
+  const ReplayResult& controlled = one.outcome.replayed.result;
+  EXPECT_LT(controlled.off.most.waist, 0.5 * open.outcome.replayed.result.off.most.waist);
+  EXPECT_LT(controlled.largest_tilt, open.outcome.replayed.result.largest_tilt);
+  EXPECT_THAT(PhysicsText(one.outcome), HasSubstr("controller dcm: off the plan"));
+  EXPECT_EQ(TablesText(one.episode), TablesText(two.episode));
+  EXPECT_EQ(ReplayCsv(controlled.rows).text, ReplayCsv(two.outcome.replayed.result.rows).text);
+}
+
+// By itself, without physics: what the executor does when it is told that a foot does not carry.
+TEST(EpisodePhysicsTest, NoFootIsLiftedAsLongAsTheRobotWaits) {
+  constexpr double kFrom = 2.0, kUntil = 4.0;
+  double now = 0.0;
+  const auto waits = [&now](Side) {
+    return now > kFrom && now < kUntil ? std::string("a foot does not carry yet") : "";
+  };
+  const Episode episode =
+      Play({}, SmallWorld::Get().config,
+           {.on_tick = [&now](const EpisodeTick& tick) { now = tick.now; }, .waits = waits})
+          .episode;
+  EXPECT_EQ(episode.ending, EpisodeEnding::kArrived);
+  EXPECT_EQ(TimesOf(episode, "stopped"), 1);
+  int after = 0;
+  for (const EpisodeEvent& event : episode.events) {
+    if (event.what == "stopped") EXPECT_THAT(event.text, HasSubstr(": a foot does not carry yet"));
+    if (event.what != "begins" || event.half_step % 2 != 0) continue;
+    EXPECT_FALSE(event.t > kFrom + 0.02 && event.t < kUntil) << event.t;
+    after += event.t >= kUntil ? 1 : 0;
+  }
+  EXPECT_GT(after, 0);
+}
+
+TEST(EpisodePhysicsTest, AFootThatCarriesLateIsMissedAndThenTold) {
+  const SuperposedWalk walk = Play({}, SmallWorld::Get().config).episode.Executed();
+  const RobotModel& robot = Hrp2().model;
+  const Side swing = walk.half_step(2).swing();
+  const double landing = walk.start_of(3) + walk.tracks(3).t1();
+  control::ContactWatch watch(robot);
+  std::vector<control::Contact> told;
+  bool missed = false;
+  for (double t = 0.0; t < landing + 0.5; t += 0.005) {
+    control::MeasuredState measured;
+    measured.t = t;
+    for (const Side side : {Side::kLeft, Side::kRight}) {
+      const bool late = side == swing && t > landing - 0.1 && t < landing + 0.2;
+      const bool lifted = late || walk.InAir(walk.Locate(t), side);
+      Nth(measured.loads, Index(side)).force = lifted ? 0.0 : 0.5 * robot.mass * kGravity;
+    }
+    if (const auto contact = watch.Look(measured, walk)) told.push_back(*contact);
+    missed = missed || watch.misses(swing);
+  }
+  EXPECT_TRUE(missed);
+  EXPECT_FALSE(watch.misses(swing));
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_EQ(told[0].foot, swing);
+  EXPECT_EQ(told[0].half_step, 3);
+  EXPECT_GT(told[0].late, 0.1);
+  EXPECT_LT(told[0].late, 0.21);
+}
+
+TEST(EpisodePhysicsTest, AFootThatMeetsTheFloorEarlyIsNotPushedIntoIt) {
+  SKIP_WITHOUT_PHYSICS();
+  EpisodeRobot open = RobotOf();
+  open.setup.relief.curb = 0.01;
+  const PlayedInPhysics pushed = PlayInPhysics({}, ThreeSteps(), open);
+  const PlayedInPhysics met = PlayInPhysics({}, ThreeSteps(), Controlled(open));
+  for (const PlayedInPhysics& one : {std::cref(pushed), std::cref(met)}) {
+    EXPECT_GE(TimesOf(one.episode, "early"), 1);
+  }
+  EXPECT_LT(met.outcome.replayed.result.largest_tilt,
+            0.7 * pushed.outcome.replayed.result.largest_tilt);
+}
+
+TEST(EpisodePhysicsTest, APushActsAndIsTold) {
+  SKIP_WITHOUT_PHYSICS();
+  EpisodeRobot robot = Soft(3000.0, 150.0);
+  const auto push = [&robot](double impulse) {
+    robot.pushes = {{.at = 2.0, .duration = 0.1, .impulse_W = {0.0, impulse, 0.0}}};
+  };
+  push(17.0);
+  EXPECT_EQ(PlayInPhysics({}, ThreeSteps(), robot).episode.ending, EpisodeEnding::kFell);
+  push(4.0);
+  const PhysicalOutcome stands = PlayInPhysics({}, ThreeSteps(), Controlled(robot)).outcome;
+  EXPECT_TRUE(stands.replayed.result.stayed_up);
+  EXPECT_THAT(PhysicsText(stands), HasSubstr("pushed at 2.00 s for 0.10 s: x 0.0 N s, y 4.0 N s"));
 }
 
 TEST(LiveInPhysicsCommand, WritesAFolderThatVerifiesAndReplaysOrSaysWhyNot) {

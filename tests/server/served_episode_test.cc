@@ -324,6 +324,11 @@ TEST(ServedEpisode, ClientsMayMeasureInPlaceOfTheStandIn) {
     EXPECT_THAT(std::string(client.ReadUntil("waiting")["reason"]), testing::Not(""));
     client.SendLine({{"type", "carry"}, {"obstacle", "bar"}, {"xyz_m", {0, 0, 0}}});
     EXPECT_THAT(std::string(client.ReadUntil("error")["text"]), HasSubstr("not taken here"));
+    // Measured long before the robot began to wait, as by a client that came while half-steps were
+    // prepared.
+    const json bar = {{"name", "bar"}, {"xyz_m", {0.75, 2.0, 0.02}}};
+    client.SendLine({{"type", "measured"}, {"age_s", 600.0}, {"obstacles", {bar}}});
+    EXPECT_LT(client.ReadUntil("world")["measured_s"], -500.0);
   }
   const std::string command = "python3 " HALFSTEP_SOURCE_DIR "/experiments/server/client.py " +
                               (served.place() / "walk.sock").string() + " bar=0.75,2,0.02 > " +

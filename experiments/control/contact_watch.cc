@@ -1,0 +1,70 @@
+#include "experiments/control/contact_watch.h"
+
+#include "wpg/motion/foot_loads.h"
+#include "wpg/nth.h"
+#include "wpg/robot/gravity.h"
+
+namespace halfstep::control {
+namespace {
+
+// The step whose foot is in the air at an instant, or was last before; −1: none was lifted.
+int LatestStep(const SuperposedWalk& walk, const LocalTime& at) {
+  const double t = walk.Absolute(at);
+  int up = at.half_step / 2 * 2;
+  while (up >= 0 && walk.start_of(up) + walk.tracks(up).t2() > t) up -= 2;
+  return up / 2 - (up < 0 ? 1 : 0);
+}
+
+// The share of the weight that the walk's ZMP asks of a foot.
+double ShareOf(const SuperposedWalk& walk, const LocalTime& at, const WalkState& x,
+               const Eigen::Vector2d& sole_size, Side side) {
+  if (walk.StepInAir(at) >= 0) return walk.InAir(at, side) ? 0.0 : 1.0;
+  return FootLoads::BothFeet(FootPose(x, Side::kLeft), FootPose(x, Side::kRight), sole_size,
+                             {x[kZmpX], x[kZmpY]})
+      .share(side);
+}
+
+}  // namespace
+
+ContactWatch::ContactWatch(const RobotModel& robot)
+    : least_(kCarries * robot.mass * kGravity),
+      early_(kEarly * robot.com_height),
+      sole_size_(robot.sole_size) {}
+
+std::optional<Contact> ContactWatch::Look(const MeasuredState& measured,
+                                          const SuperposedWalk& walk) {
+  std::optional<Contact> contact;
+  const LocalTime at = walk.Locate(measured.t);
+  const WalkState x = walk.At(at).value;
+  const int step = LatestStep(walk, at);
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    Foot& foot = Nth(feet_, Index(side));
+    const bool pressed = Nth(measured.loads, Index(side)).force >= least_;
+    const bool carries = pressed && foot.pressed;
+    foot.pressed = pressed;
+    const bool flies = walk.InAir(at, side);
+    if (flies && !pressed) foot.awaited = true;
+    const bool due = foot.awaited && !flies && ShareOf(walk, at, x, sole_size_, side) >= kDue;
+    if (!due) foot.due.reset();
+    if (due && !foot.due) foot.due = measured.t;
+    const double late = due ? measured.t - *foot.due : 0.0;
+    foot.misses = late > kLate && !carries;
+    if (!carries || !foot.awaited) continue;
+    foot.awaited = false;
+    const bool known = step >= 0 && 2 * step + 1 < walk.num_half_steps() &&
+                       walk.half_step(2 * step).swing() == side;
+    const double height = x.segment<4>(FootIndex(side)).z();
+    const bool early = flies && height >= early_;
+    if (!known || (!early && late <= kLate)) continue;
+    const int down = 2 * step + 1;
+    const double landing = walk.start_of(down) + walk.tracks(down).t1();
+    contact = {.t = measured.t,
+               .foot = side,
+               .half_step = down,
+               .late = early ? measured.t - landing : late,
+               .height = height};
+  }
+  return contact;
+}
+
+}  // namespace halfstep::control
