@@ -99,6 +99,9 @@ std::vector<std::vector<double>> AllInstants(const ReplayCommand& command, const
   if (!command.push_at.empty() && !command.push) {
     throw InputError({"--push-at: without --push it says nothing"});
   }
+  if (command.push_directions != ReplayCommand{}.push_directions && !command.push) {
+    throw InputError({"--push-directions: without --push it says nothing"});
+  }
   std::vector<std::vector<double>> all;
   for (const replay::RecordedWalk& one : task.motions)
     all.push_back(Instants(command, one.motion.end()));

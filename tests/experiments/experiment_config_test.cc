@@ -265,7 +265,7 @@ TEST(ExperimentConfig, AProfileIsWhatIsDemandedWhereNoKeySaysOtherwise) {
   };
   EXPECT_EQ(limits("hrp2", {}).demanded, LimitsOf(DemandProfile::kWalkable).demanded);
   // A sole of 66 mm in place of 137 mm.
-  EXPECT_EQ(limits("wren", {}).demanded_of(MarginFamily::kZmpRobot), 0.0145);
+  EXPECT_EQ(limits("wren", {}).demanded_of(MarginFamily::kZmpRobot), 0.0132);
   EXPECT_EQ(limits("wren", {{"smoothing.profile", "limit"}}).demanded, MarginLimits{}.demanded);
   const MarginLimits paper = limits("hrp2", {{"smoothing.profile", "paper"},
                                              {"smoothing.margins.friction", "0.1"},

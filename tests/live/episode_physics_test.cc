@@ -238,7 +238,9 @@ TEST(EpisodePhysicsTest, NoFootIsLiftedAsLongAsTheRobotWaits) {
   EXPECT_EQ(TimesOf(episode, "stopped"), 1);
   int after = 0;
   for (const EpisodeEvent& event : episode.events) {
-    if (event.what == "stopped") EXPECT_THAT(event.text, HasSubstr(": a foot does not carry yet"));
+    if (event.what == "stopped") {
+      EXPECT_THAT(event.text, HasSubstr(": a foot does not carry yet"));
+    }
     if (event.what != "begins" || event.half_step % 2 != 0) continue;
     EXPECT_FALSE(event.t > kFrom + 0.02 && event.t < kUntil) << event.t;
     after += event.t >= kUntil ? 1 : 0;

@@ -281,7 +281,7 @@ std::vector<Mutation> Mutations() {
       {"RobotZmpDemandRaised", InJson([](Json& j) { j["demanded"]["zmp_robot"] = 0.1; }),
        "ZMP of the whole robot"},
       {"RobotZmpDemandLeftOut", InJson([](Json& j) { j["demanded"]["zmp_robot"] = nullptr; }),
-       "zmp_robot: the certificate demands -inf, config.yaml 0.03"},
+       "zmp_robot: the certificate demands -inf, config.yaml 0.0274"},
       {"TorqueUnwatched", Certificate([](Table& t) { Loosest(t, "torque")[kMargin] = "inf"; }),
        "the robot has a ZMP"},
       {"TorqueMarginRaised",
