@@ -33,12 +33,14 @@ def call(words, statuses=(0, 1)):
 
 
 def smoothed(halfstep, config, folder, settings):
-    """The row of summary.csv of METHOD, and of the planned walk."""
+    """The row of summary.csv of METHOD, and of the planned walk; none where there is no plan."""
     if not (folder / "summary.csv").exists():
         words = [halfstep, "run", config, "--set", f"smoothing.methods=[{METHOD}]"]
         for setting in settings:
             words += ["--set", setting]
-        call(words + ["--out", str(folder), "--quiet"])
+        call(words + ["--out", str(folder), "--quiet"], (0, 1, 2))  # 2: no half-step keeps the tube
+    if not (folder / "summary.csv").exists():
+        return None, None
     with open(folder / "summary.csv", encoding="utf-8") as file:
         rows = {row["method"]: row for row in csv.DictReader(file)}
     return rows[METHOD], rows["raw"]
@@ -56,6 +58,8 @@ def suggested(halfstep, folder, servos):
 
 def verdict(row, raw, before):
     """D and its price, or what fails."""
+    if row is None:
+        return "no half-step"
     if row["certified"] == "true":
         after = float(row["duration_s"])
         return f"{after:.2f} ({100 * (after / before - 1):+.0f} %)"
