@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
@@ -114,6 +115,20 @@ RobotModel ModelOrRefusal(const RobotDraft& draft, const fs::path& file) {
   }
 }
 
+// The soles of `--sole`; none without it.
+std::optional<StatedSoles> SolesOf(const std::vector<double>& numbers) {
+  if (numbers.empty()) return std::nullopt;
+  if (numbers.size() == 3 || !(std::min(numbers[0], numbers[1]) >= 0.005) ||
+      !(std::max(numbers[0], numbers[1]) <= 1.0)) {
+    throw InputError(
+        {"--sole: no sole (valid: LENGTH WIDTH, each 0.005 … 1 m, or LENGTH WIDTH AHEAD "
+         "OUTWARDS)"});
+  }
+  StatedSoles soles{.size = {numbers[0], numbers[1]}, .centre = std::nullopt};
+  if (numbers.size() == 4) soles.centre = Eigen::Vector2d(numbers[2], numbers[3]);
+  return soles;
+}
+
 }  // namespace
 
 ExitStatus SurveyRobotFile(const RobotCommand& command) {
@@ -137,6 +152,7 @@ CommandAction DeclareRobot(CLI::App* app, const Toolbox&) {
   struct Texts {
     std::string urdf;
     std::vector<std::string> feet, packages;
+    std::vector<double> sole;
   };
   const auto texts = std::make_shared<Texts>();
   SurveyRequest* const survey = &command->survey;
@@ -154,6 +170,11 @@ CommandAction DeclareRobot(CLI::App* app, const Toolbox&) {
   app->add_option("--width", survey->stance.width,
                   "of the stance [m] (default: as narrow as feet allow)")
       ->check(CLI::Range(0.01, 2.0));
+  app->add_option(
+         "--sole", texts->sole,
+         "length and width of either sole [m]; and its centre ahead of the foot's origin and "
+         "outwards of it, all joints at zero (default: found from the feet's bodies)")
+      ->expected(2, 4);
   app->add_flag("--overwrite", command->overwrite, "replace older files");
   app->add_flag("--quiet", command->quiet, "print nothing but errors");
   return [command, texts] {
@@ -163,6 +184,7 @@ CommandAction DeclareRobot(CLI::App* app, const Toolbox&) {
       throw InputError({texts->urdf + ": is a robot file already (valid: a URDF)"});
     }
     for (size_t i = 0; i < texts->feet.size(); ++i) request.legs.feet[i] = texts->feet[i];
+    request.soles = SolesOf(texts->sole);
     for (const YamlOverride& package : ParseOverrides(texts->packages, "--package")) {
       request.packages[package.key] = fs::absolute(package.value).lexically_normal().string();
     }

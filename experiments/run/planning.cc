@@ -80,7 +80,11 @@ StepSet CertifiedHalfSteps(const RobotModel& robot, const ExperimentConfig& conf
   const HalfStepCertifier certifier(robot, Scene{}, config);
   return MakeStepSet(
       config.step_set, PrototypeOf(config),
-      [&](const HalfStep& half_step) { return certifier.Certifies(half_step, {}); }, progress);
+      [&](const HalfStep& half_step) {
+        return certifier.Certifies(half_step, {}) &&
+               (robot.legs_are_mirrored || certifier.Certifies(half_step.Mirrored(), {}));
+      },
+      progress);
 }
 
 Acceptance CertifyPlan(const CertifiedFeasibility& test, const HalfStepSequence& sequence) {

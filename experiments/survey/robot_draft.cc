@@ -33,6 +33,10 @@ std::string List(const Eigen::VectorXd& values, int places) {
   return "[" + text + "]";
 }
 
+std::string Times(const Eigen::Vector2d& size) {
+  return Decimal(size.x(), 4) + " x " + Decimal(size.y(), 4);
+}
+
 // Roll, pitch and yaw about fixed axes [deg].
 Eigen::Vector3d RpyOf(const Eigen::Matrix3d& R) {
   const double pitch = Atan2(-R(2, 0), Hypot(R(2, 1), R(2, 2)));
@@ -61,11 +65,10 @@ std::string LinkName(const RobotDraft& draft, int link) { return Nth(draft.urdf.
 
 std::string LegsText(const RobotDraft& draft) {
   const FoundSole& sole = draft.soles[0];
-  if (sole.size.isZero()) return "# The soles were not looked for.\n";
-  std::string text =
-      "# The soles: the largest flat part of each foot's bodies, " + Decimal(1e3 * sole.depth, 1) +
-      " mm below the frame of the foot's link; its centre is that\n"
-      "# of the largest rectangle in what is less than 1 mm above the lowest point.\n";
+  const Eigen::Vector2d common = sole.size.cwiseMin(draft.soles[1].size);
+  if (common.isZero()) return "# The soles were not looked for.\n";
+  std::string text = "# The soles: " + sole.what + ", " + Decimal(1e3 * sole.depth, 1) +
+                     " mm below the frame of the foot's link.\n";
   if (sole.tilt > 0.1 / kDegrees) {
     text += "# With all joints at zero it tilts by " + Decimal(sole.tilt * kDegrees, 1) + " deg.\n";
   }
@@ -79,7 +82,11 @@ std::string LegsText(const RobotDraft& draft) {
     if (rpy.cwiseAbs().maxCoeff() > 1e-9) text += "    sole_rpy_deg: " + List(rpy, 9) + "\n";
   }
   // Inwards, so that what carries is there.
-  const Eigen::Vector2d size = (1e4 * sole.size).array().floor() / 1e4;
+  const Eigen::Vector2d size = (1e4 * common).array().floor() / 1e4;
+  if ((sole.size - draft.soles[1].size).cwiseAbs().maxCoeff() > 1e-4) {
+    text += "# What both soles have: " + Times(sole.size) + " m and " + Times(draft.soles[1].size) +
+            " m.\n";
+  }
   return text + "sole_size_m: " + List(size, 4) + "\n";
 }
 
@@ -93,28 +100,13 @@ std::string PostureText(const RobotDraft& draft) {
                      " m apart:\n# " + draft.why_width + ".\nstanding_posture_deg:\n";
   for (size_t i = 0; i < urdf.joints.size(); ++i) {
     if (urdf.joints[i].kind != UrdfJoint::Kind::kRevolute) continue;
-    const auto narrower = draft.limits.find(static_cast<int>(i));
-    const std::array<double, 2> limits =
-        narrower == draft.limits.end() ? std::array{urdf.joints[i].lower, urdf.joints[i].upper}
-                                       : narrower->second;
     const std::string angle =
-        WithinLimits(kDegrees * draft.posture[i], {kDegrees * limits[0], kDegrees * limits[1]});
+        WithinLimits(kDegrees * draft.posture[i],
+                     {kDegrees * urdf.joints[i].lower, kDegrees * urdf.joints[i].upper});
     const auto why = draft.why_posture.find(static_cast<int>(i));
     if (angle == "0" && why == draft.why_posture.end()) continue;
     text += "  " + Quoted(urdf.joints[i].name) + ": " + angle +
             (why == draft.why_posture.end() ? "" : "  # " + why->second) + "\n";
-  }
-  return text;
-}
-
-std::string LimitsText(const RobotDraft& draft) {
-  if (draft.limits.empty()) return "";
-  std::string text =
-      "# Left and right have different limits in the URDF; both get what both have.\n"
-      "joint_limits_deg:\n";
-  for (const auto& [joint, range] : draft.limits) {
-    text += "  " + Quoted(Nth(draft.urdf.joints, joint).name) + ": " +
-            List(kDegrees * Eigen::Vector2d(range[0], range[1]), 9) + "\n";
   }
   return text;
 }
@@ -180,7 +172,7 @@ std::string YamlOf(const RobotDraft& draft) {
   for (const std::string& joint : draft.legs.beyond) {
     text += "# " + joint + " is beyond the sixth joint: it is held still.\n";
   }
-  return text + LegsText(draft) + PostureText(draft) + LimitsText(draft) + ExcludedText(draft);
+  return text + LegsText(draft) + PostureText(draft) + ExcludedText(draft);
 }
 
 std::string RefusedYamlOf(const RobotDraft& draft, const std::vector<std::string>& complaints) {

@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "experiments/survey/found_frames.h"
+#include "experiments/survey/found_legs.h"
+#include "experiments/survey/found_soles.h"
 #include "experiments/survey/standing.h"
 #include "wpg/robot/robot_fields.h"
 #include "wpg/robot/urdf_file.h"
@@ -38,9 +39,7 @@ struct RobotDraft {
   double support_point = 0.0;                    ///< RobotModel::support_point [m]
   std::string why_support;                       ///< why it is not 0
   std::vector<double> posture;                   ///< by URDF joint index [rad]
-  std::vector<ExcludedPair> excluded;  ///< pairs that are not checked for contact, and why
-  /// Limits that are narrower than the URDF's [rad], by URDF joint index.
-  std::map<int, std::array<double, 2>> limits;
+  std::vector<ExcludedPair> excluded;      ///< pairs that are not checked for contact, and why
   std::map<int, std::string> why_posture;  ///< of joints outside the legs, by URDF joint index
 };
 

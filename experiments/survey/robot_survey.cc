@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "experiments/survey/arm_posture.h"
+#include "experiments/survey/found_frames.h"
 #include "experiments/survey/self_gaps.h"
 #include "experiments/survey/touching_neighbours.h"
 #include "planner/collision/separation.h"
@@ -24,7 +25,6 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 constexpr double kExcess = 2e-3;     // of bodies over their meshes' hulls, of HRP-2's size [m]
-constexpr double kMirror = 1e-4;     // as LoadRobot compares legs [m, rad]
 constexpr double kArmsApart = 0.03;  // arms and legs, in six steps [m]
 
 class Surveyor {
@@ -90,15 +90,6 @@ class Surveyor {
       if (built) legs_[side] = *built;
     }
     complaints.ThrowIfAny();
-    for (const size_t i : ShareLimits(&legs_[0], &legs_[1], kMirror)) {
-      for (size_t side = 0; side < 2; ++side) {
-        const LegJoint& joint = legs_[side].joints[i];
-        draft_.limits[draft_.legs.joints[side][i]] = {joint.lower, joint.upper};
-      }
-    }
-    if (const std::string fault = MirrorFault(legs_[0], legs_[1], kMirror); !fault.empty()) {
-      throw InputError({urdf.file + ": " + fault});
-    }
   }
 
   void FindBodies() {
@@ -120,7 +111,7 @@ class Surveyor {
       }
     }
     try {
-      draft_.soles = FindSoles(legs_, bodies_);
+      draft_.soles = FindSoles(legs_, bodies_, request_.soles);
     } catch (const std::runtime_error& error) {
       throw InputError({draft_.urdf.file + ": " + error.what()});
     }

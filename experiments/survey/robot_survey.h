@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct SurveyRequest {
   LegNames legs = {};                                ///< waist and feet, where the user names them
   std::map<std::string, std::string> packages = {};  ///< name → folder
   StanceRequest stance = {};                         ///< how the robot shall stand
+  std::optional<StatedSoles> soles = {};             ///< where the user names them
 };
 
 /// What was found of a URDF.

@@ -231,8 +231,13 @@ class StanceSearch {
     // The CoM moves with the legs: a few rounds are enough.
     for (int round = 0; round < 4; ++round) {
       standing.x = ComAhead();
+      // Both soles are level with each other: the shorter leg is bent as asked for.
+      const auto left = StandingHeight(legs_[0], Side::kLeft, standing);
+      const auto right = StandingHeight(legs_[1], Side::kRight, standing);
       for (const Side side : {Side::kLeft, Side::kRight}) {
-        const auto q = FindStanding(Nth(legs_, side), side, standing);
+        const auto q = left && right
+                           ? FindStanding(Nth(legs_, side), side, standing, std::max(*left, *right))
+                           : std::nullopt;
         if (!q) {
           return Formatted(
               "the %s foot cannot stand level below the CoM, %.3f m from the other, hip and ankle "

@@ -34,17 +34,26 @@ double KneeAhead(const Leg& leg, const Vector6d& q) {
   return (off - off.dot(frames.axis_B[3]) * frames.axis_B[3]).x();
 }
 
+Eigen::Isometry3d SolePlace(Side side, const StandingRequest& request, double z) {
+  Eigen::Isometry3d X_BSole = Eigen::Isometry3d::Identity();
+  X_BSole.translation() = Vector3d(request.x, Sign(side) * 0.5 * request.width, z);
+  return X_BSole;
+}
+
 }  // namespace
 
-std::optional<Vector6d> FindStanding(const Leg& leg, Side side, const StandingRequest& request) {
+std::optional<double> StandingHeight(const Leg& leg, Side side, const StandingRequest& request) {
   const Vector3d ankle_S = leg.X_BSole.inverse() * leg.ankle_B;
-  Eigen::Isometry3d X_BSole = Eigen::Isometry3d::Identity();
-  X_BSole.translation() = Vector3d(request.x, Sign(side) * 0.5 * request.width, 0.0);
-  const Vector3d across = X_BSole * ankle_S - leg.hip_B;
+  const Vector3d across = SolePlace(side, request, 0.0) * ankle_S - leg.hip_B;
   const double reach = request.bend * StretchedLength(leg);
   const double height = reach * reach - across.head<2>().squaredNorm();
   if (height <= 0) return std::nullopt;
-  X_BSole.translation().z() = leg.hip_B.z() - ankle_S.z() - std::sqrt(height);
+  return leg.hip_B.z() - ankle_S.z() - std::sqrt(height);
+}
+
+std::optional<Vector6d> FindStanding(const Leg& leg, Side side, const StandingRequest& request,
+                                     double z) {
+  const Eigen::Isometry3d X_BSole = SolePlace(side, request, z);
   std::optional<Vector6d> best;
   double farthest = -std::numeric_limits<double>::infinity();
   for (LegIkBranchSolution& solution : SolveLegIkAll(leg, X_BSole)) {

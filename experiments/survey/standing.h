@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "experiments/survey/found_frames.h"
+#include "experiments/survey/found_soles.h"
 #include "wpg/robot/robot_model.h"
 
 namespace halfstep {
@@ -16,9 +16,15 @@ struct StandingRequest {
   double x = 0.0;      ///< of the sole centres ahead of the waist [m]
 };
 
-/// The joint angles of a leg [rad] that put its sole there, level and pointing forward, within its
-/// limits; of several solutions the one whose knee is farthest ahead. None when there is none.
-std::optional<Vector6d> FindStanding(const Leg& leg, Side side, const StandingRequest& request);
+/// How far below the waist's origin a leg's sole is then [m], < 0 for a waist above the floor; none
+/// when the leg is too short.
+std::optional<double> StandingHeight(const Leg& leg, Side side, const StandingRequest& request);
+
+/// The joint angles of a leg [rad] that put its sole there, at z in B [m], level and pointing
+/// forward, within its limits; of several solutions the one whose knee is farthest ahead. None when
+/// there is none.
+std::optional<Vector6d> FindStanding(const Leg& leg, Side side, const StandingRequest& request,
+                                     double z);
 
 /// The narrowest stance [m] at which the feet are `gap` apart: their bodies, or the soles where
 /// those are wider. It is at least that of straight legs.

@@ -37,7 +37,8 @@ struct StepSet {
 };
 
 /// Every place of the grid for which `keeps` accepts both the down and the up half-step of a left
-/// support. `keeps` shall prove robot-only margins for all t. `progress` (may be empty) is called
+/// support. `keeps` shall prove robot-only margins for all t, of the mirrored half-step as well
+/// where the robot's legs are not mirror images. `progress` (may be empty) is called
 /// with the fraction done, and stops the search by returning false; then the set is empty.
 StepSet MakeStepSet(const StepGrid& grid, const HalfStep& prototype,
                     const std::function<bool(const HalfStep&)>& keeps,

@@ -204,12 +204,14 @@ TEST(RobotCommand, WritesTheDraftOfARobotThatItRefuses) {
   const std::string no_legs =
       draft_of("<robot name='r'><link name='stone'/></robot>", "there are no two legs");
   EXPECT_THAT(no_legs, HasSubstr("# Waist and legs were not found."));
-  // One knee is quicker than the other.
-  const std::string quicker =
-      std::regex_replace(urdf, std::regex("(left_joint3'[^\\n]*velocity=')[0-9.]*"), "$017.5");
-  const std::string unequal = draft_of(quicker, "its speed limit differs");
-  EXPECT_THAT(unequal, HasSubstr("waist_link: 'waist'"));
-  EXPECT_THAT(unequal, HasSubstr("# The soles were not looked for."));
+  // Feet without bodies.
+  const std::string no_soles = draft_of(
+      std::regex_replace(urdf, std::regex("<collision>[^\\n]*<box size='0.2 0.11 0.04'/>[^\\n]*"
+                                          "</collision>"),
+                         ""),
+      "foot has no collision bodies");
+  EXPECT_THAT(no_soles, HasSubstr("waist_link: 'waist'"));
+  EXPECT_THAT(no_soles, HasSubstr("# The soles were not looked for."));
 }
 
 TEST(ScaledDefaults, AreHrp2sForHrp2) {

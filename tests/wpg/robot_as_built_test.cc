@@ -1,4 +1,4 @@
-// Robots as they are built: frames that point elsewhere, legs that are not quite mirror images.
+// Robots as they are built: frames that point elsewhere, legs that are no mirror images.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,6 +14,7 @@
 #include "wpg/files/regular_file.h"
 #include "wpg/files/yaml_fields.h"
 #include "wpg/robot/robot_fields.h"
+#include "wpg/robot/robot_legs.h"
 #include "wpg/robot/robot_measures.h"
 
 namespace halfstep {
@@ -115,20 +116,47 @@ UrdfTree WithRightAnkleMoved(double metres) {
   return urdf;
 }
 
-TEST(RobotAsBuilt, LegsMayDifferByATenthOfAMillimetre) {
+TEST(RobotAsBuilt, LegsMayDiffer) {
   const std::string text = ReadYamlFile(kHrp2);
-  EXPECT_THAT(Built(text, WithRightAnkleMoved(0)).warnings, IsEmpty());
+  const RobotModel mirrored = Built(text, WithRightAnkleMoved(0));
+  EXPECT_THAT(mirrored.warnings, IsEmpty());
+  EXPECT_TRUE(mirrored.legs_are_mirrored);
   const RobotModel robot = Built(text, WithRightAnkleMoved(6.4e-6));
   EXPECT_THAT(robot.warnings,
-              ElementsAre(HasSubstr("the right ankle is 0.0064 mm off the mirror image of the left "
-                                    "one; each leg is taken as it is")));
+              ElementsAre(HasSubstr("the right leg differs from the left one's mirror image: ankle "
+                                    "by 0.0064 mm")));
+  EXPECT_FALSE(robot.legs_are_mirrored);
   EXPECT_NEAR(robot.legs[1].ankle_B.x() - robot.legs[0].ankle_B.x(), 6.4e-6, 1e-12);
+  // The posture of a file has to put both soles on one floor.
   try {
     Built(text, WithRightAnkleMoved(2e-4));
     ADD_FAILURE() << "accepted";
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("the right ankle is 0.2 mm off the mirror image"));
+    EXPECT_THAT(error.what(), HasSubstr("the soles do not stand side by side"));
   }
+}
+
+// Each difference is told with its size, and none where there is none.
+TEST(RobotAsBuilt, DifferencesOfLegsHaveASize) {
+  const RobotModel robot = Built(ReadYamlFile(kHrp2), Hrp2Tree());
+  const auto differences = [&](const auto& change) {
+    Leg right = robot.legs[1];
+    change(&right.joints[3]);
+    return MirrorDifferences(robot.legs[0], right, 1e-6);
+  };
+  EXPECT_THAT(differences([](LegJoint*) {}), IsEmpty());
+  EXPECT_THAT(differences([](LegJoint* j) {
+                j->axis_B = Eigen::AngleAxisd(0.01, Eigen::Vector3d::UnitZ()) * j->axis_B;
+              }),
+              ElementsAre("the axis of RLEG_JOINT3 by 0.573 deg"));
+  EXPECT_THAT(differences([](LegJoint* j) { j->point_B.z() += 2e-3; }),
+              ElementsAre("the place of RLEG_JOINT3 by 2.0 mm"));
+  EXPECT_THAT(differences([](LegJoint* j) { j->upper += 0.1; }),
+              ElementsAre("the limits of RLEG_JOINT3 by 5.73 deg"));
+  EXPECT_THAT(differences([](LegJoint* j) { j->max_speed += 0.5; }),
+              ElementsAre("the speed limit of RLEG_JOINT3 by 0.5 rad/s"));
+  EXPECT_THAT(differences([](LegJoint* j) { j->max_torque = 200; }),
+              ElementsAre(HasSubstr("the torque limit of RLEG_JOINT3 by ")));
 }
 
 TEST(RobotAsBuilt, APackageThatNothingNamesIsTold) {

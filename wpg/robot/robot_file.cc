@@ -33,9 +33,9 @@ namespace fs = std::filesystem;
 constexpr double kDegree = std::numbers::pi / 180;
 // How far the standing posture may be from flat, parallel and mirrored feet ([m] and [rad]).
 constexpr double kStanding = 1e-4;
-// How far the right leg may be from the left one's mirror image ([m], [rad] and [rad/s]); what is
-// more than rounding is told. Nothing that is proved takes one leg for the other.
-constexpr double kMirror = 1e-4, kRounding = 1e-6;
+// In how much the right leg may differ from the left one's mirror image without a word ([m], [rad],
+// …). Nothing that is proved takes one leg for the other.
+constexpr double kRounding = 1e-6;
 // How far a body may reach from its link, in heights of the waist: in other units it would.
 constexpr double kFarthestBody = 10.0;
 constexpr double kBelowSole = 1e-6;  // a foot's bodies may reach this far below its sole [m]
@@ -113,12 +113,15 @@ class Builder {
   }
 
   void CompareLegs() {
-    const Leg &left = model_.legs[0], &right = model_.legs[1];
-    if (const std::string fault = MirrorFault(left, right, kMirror); !fault.empty()) {
-      fields_.Complain("legs", fault);
-    } else if (const std::string note = MirrorFault(left, right, kRounding); !note.empty()) {
-      model_.warnings.push_back(urdf_.file + ": " + note + "; each leg is taken as it is");
+    std::string list;
+    for (const std::string& each : MirrorDifferences(model_.legs[0], model_.legs[1], kRounding)) {
+      list += (list.empty() ? "" : ", ") + each;
     }
+    if (list.empty()) return;
+    model_.legs_are_mirrored = false;
+    model_.warnings.push_back(urdf_.file +
+                              ": the right leg differs from the left one's mirror image: " + list +
+                              "; each leg is taken as it is");
   }
 
   void Warn() {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "wpg/elementary.h"
 #include "wpg/files/text.h"
 #include "wpg/nth.h"
 #include "wpg/robot/leg_continuation.h"
@@ -239,54 +240,43 @@ std::array<double, 2> MirroredRange(const LegJoint& joint, const LegJoint& other
   return {-joint.upper, -joint.lower};
 }
 
-bool LimitsDiffer(const LegJoint& left, const LegJoint& right, double tolerance) {
-  const auto [lower, upper] = MirroredRange(left, right);
-  return std::max(std::abs(lower - right.lower), std::abs(upper - right.upper)) > tolerance;
-}
-
 }  // namespace
 
-std::vector<size_t> ShareLimits(Leg* left, Leg* right, double tolerance) {
-  std::vector<size_t> narrowed;
-  for (size_t i = 0; i < 6; ++i) {
-    LegJoint &l = left->joints[i], &r = right->joints[i];
-    const auto [lower, upper] = MirroredRange(l, r);
-    const double from = std::max(r.lower, lower), to = std::min(r.upper, upper);
-    if (!LimitsDiffer(l, r, tolerance) || from >= to) continue;
-    r.lower = from;
-    r.upper = to;
-    const std::array<double, 2> mirrored = MirroredRange(r, l);
-    l.lower = mirrored[0];
-    l.upper = mirrored[1];
-    narrowed.push_back(i);
-  }
-  return narrowed;
-}
-
-std::string MirrorFault(const Leg& left, const Leg& right, double tolerance) {
+std::vector<std::string> MirrorDifferences(const Leg& left, const Leg& right, double tolerance) {
+  constexpr double kDegree = std::numbers::pi / 180;
   const Eigen::DiagonalMatrix<double, 3> mirror(1, -1, 1);
-  const auto differ = [&](const Vector3d& l, const Vector3d& r) {
-    return (mirror * l - r).cwiseAbs().maxCoeff();
+  std::vector<std::string> differences;
+  const auto tell = [&](const std::string& what, double size, const std::string& text) {
+    if (size > tolerance) differences.push_back(what + " by " + text);
   };
   for (const auto& [what, l, r] : {std::tuple{"hip", left.hip_B, right.hip_B},
                                    std::tuple{"ankle", left.ankle_B, right.ankle_B}}) {
-    if (const double d = differ(l, r); d > tolerance) {
-      return std::string("the right ") + what + " is " + Millimetres(d) +
-             " off the mirror image of the left one";
-    }
+    const double apart = (mirror * l - r).norm();
+    tell(what, apart, Millimetres(apart));
   }
   for (size_t i = 0; i < 6; ++i) {
     const LegJoint &l = left.joints[i], &r = right.joints[i];
-    const std::string pair = r.name + " is not the mirror image of " + l.name;
-    const Vector3d axis = mirror * l.axis_B;
-    if (axis.cross(r.axis_B).norm() > tolerance) return pair + ": its axis points elsewhere";
-    if (const double d = DistanceToAxis(r, mirror * l.point_B); d > tolerance) {
-      return pair + ": its axis is " + Millimetres(d) + " off";
+    const double turned = Asin(std::min(1.0, (mirror * l.axis_B).cross(r.axis_B).norm()));
+    tell("the axis of " + r.name, turned, Formatted("%.3g deg", turned / kDegree));
+    const double off = DistanceToAxis(r, mirror * l.point_B);
+    tell("the place of " + r.name, off, Millimetres(off));
+    const auto [lower, upper] = MirroredRange(l, r);
+    const double range = std::max(std::abs(lower - r.lower), std::abs(upper - r.upper));
+    tell("the limits of " + r.name, range, Formatted("%.3g deg", range / kDegree));
+    const double speed = std::abs(l.max_speed - r.max_speed);
+    tell("the speed limit of " + r.name, speed, Formatted("%.3g rad/s", speed));
+    // Both may be unknown: infinite.
+    if (l.max_torque != r.max_torque) {
+      const double torque = std::abs(l.max_torque - r.max_torque);
+      tell("the torque limit of " + r.name, torque, Formatted("%.3g N m", torque));
     }
-    if (LimitsDiffer(l, r, tolerance)) return pair + ": its limits differ";
-    if (std::abs(l.max_speed - r.max_speed) > tolerance) return pair + ": its speed limit differs";
+    if (l.max_acceleration != r.max_acceleration) {
+      const double acceleration = std::abs(l.max_acceleration - r.max_acceleration);
+      tell("the acceleration limit of " + r.name, acceleration,
+           Formatted("%.3g rad/s²", acceleration));
+    }
   }
-  return "";
+  return differences;
 }
 
 }  // namespace halfstep

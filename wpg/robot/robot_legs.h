@@ -52,14 +52,10 @@ std::optional<Leg> LegGeometry(const UrdfTree& urdf, const LegRequest& request,
 std::optional<Leg> BuildLeg(const UrdfTree& urdf, const LegRequest& request,
                             const std::array<int, 6>& joints, Complaints* complaints);
 
-/// Gives joints whose limits are not each other's mirror image, by more than `tolerance` [rad], the
-/// range that both have, and returns their places in the legs. Joints without a common range stay
-/// as they are. Precondition: the joints' axes are mirror images.
-std::vector<size_t> ShareLimits(Leg* left, Leg* right, double tolerance);
-
-/// Why the right leg is not the left one's mirror image in the xz plane of the waist; "" when it
-/// is. Compared are hip and ankle, joint axes, limits and speeds, each to `tolerance` [m, rad,
-/// rad/s].
-std::string MirrorFault(const Leg& left, const Leg& right, double tolerance);
+/// In what the right leg is not the left one's mirror image in the xz plane of the waist, each with
+/// its size, such as "the axis of R by 0.5 deg"; empty when it is. Compared are hip and ankle, joint
+/// axes, and the limits of angles, speeds, torques and accelerations, each to `tolerance` [m, rad,
+/// rad/s, N m, rad/s²].
+std::vector<std::string> MirrorDifferences(const Leg& left, const Leg& right, double tolerance);
 
 }  // namespace halfstep

@@ -5,6 +5,8 @@
 #include <limits>
 
 #include "wpg/files/yaml_fields.h"
+#include "wpg/geometry/side.h"
+#include "wpg/nth.h"
 #include "wpg/robot/leg_ik.h"
 #include "wpg/robot/robot_fields.h"
 #include "wpg/robot/robot_legs.h"
@@ -20,11 +22,11 @@ double ShareOf(const LegJoint& joint) {
   return std::abs(joint.axis_B.z()) > 0.7 ? 0.1 : 0.3;
 }
 
-// Whether the left sole can be there, seen from the right one, on which the CoM is.
-bool Reaches(const RobotModel& robot, double y, double z) {
+// Whether a sole can be there, `y` aside of the other one, on which the CoM is, and `z` above it.
+bool Reaches(const RobotModel& robot, Side side, double y, double z) {
   Eigen::Isometry3d X_BSole = Eigen::Isometry3d::Identity();
-  X_BSole.translation() = Eigen::Vector3d(robot.com_x_B, y, z - robot.waist_height);
-  const Leg& leg = robot.legs[0];
+  X_BSole.translation() = Eigen::Vector3d(robot.com_x_B, Sign(side) * y, z - robot.waist_height);
+  const Leg& leg = Nth(robot.legs, side);
   const LegIkSolution solution = SolveLegIk(leg, X_BSole);
   if (solution.status != LegIkStatus::kSolved) return false;
   for (size_t i = 0; i < 6; ++i) {
@@ -32,6 +34,11 @@ bool Reaches(const RobotModel& robot, double y, double z) {
     if (q < leg.joints[i].lower + kWithin || q > leg.joints[i].upper - kWithin) return false;
   }
   return true;
+}
+
+// The same of either sole.
+bool BothReach(const RobotModel& robot, double y, double z) {
+  return Reaches(robot, Side::kLeft, y, z) && Reaches(robot, Side::kRight, y, z);
 }
 
 // The last of `steps` + 1 places from `begin` to `end` before one that does not do.
@@ -63,9 +70,10 @@ RobotMeasures MeasuresOf(const RobotModel& robot) {
   }
   const double w = m.standing_width;
   m.aside = Last(w, 8.0 / 7.0 * w, 20, [&](double y) {
-    return Reaches(robot, y, 0.0) && Reaches(robot, y, 0.1 * m.leg_length);
+    return BothReach(robot, y, 0.0) && BothReach(robot, y, 0.1 * m.leg_length);
   });
-  m.lift = Last(0.0, 0.5 * m.leg_length, 100, [&](double z) { return Reaches(robot, m.aside, z); });
+  m.lift =
+      Last(0.0, 0.5 * m.leg_length, 100, [&](double z) { return BothReach(robot, m.aside, z); });
   m.lift = std::min(m.lift, robot.largest_lift);
   return m;
 }

@@ -15,7 +15,7 @@ struct RobotMeasures {
   /// q̇: least speed limit of a leg's joint [rad/s], each over its share of what a knee turns in a
   /// half-step: 1 about y, 0.3 about x, 0.1 about z.
   double slowest_joint = 0.0;
-  /// The farthest aside of the support sole, and there the highest, to which the swing foot goes
+  /// The farthest aside of the support sole, and there the highest, to which either swing foot goes
   /// within the joints' limits while the CoM is above the support sole [m]. At most 8/7 w; and half
   /// of ℓ and RobotModel::largest_lift.
   double aside = 0.0, lift = 0.0;  ///< both [m]

@@ -100,6 +100,8 @@ struct AssumedAcceleration {
 struct RobotModel {
   std::string name;               ///< in messages and manifests
   std::array<Leg, 2> legs;        ///< indexed by Index(Side).
+  /// Whether they are mirror images in the xz plane of B but for rounding (MirrorDifferences).
+  bool legs_are_mirrored = true;
   Eigen::Vector2d sole_size;      ///< full length (x) and width (y) of the sole rectangle [m].
   Eigen::Matrix2Xd sole_outline;  ///< of what touches the floor (wpg/robot/sole_outline.h) [m].
   /// Height of B's origin above the floor in the standing posture, kept while walking [m].
