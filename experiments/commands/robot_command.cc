@@ -73,28 +73,65 @@ void Tell(const RobotDraft& draft, const RobotModel& robot) {
   }
 }
 
-// Walks, proves and tells; whether the walk is certified.
-bool Walk(const RobotFiles& files, bool quiet) {
-  InterruptGuard interrupt;
-  std::optional<ProgressBar> bar(std::in_place, "six steps", quiet);
-  const RunHooks hooks{.progress = [&bar](const std::string&, double done) { bar->Update(done); },
+void WriteWalk(const RobotModel& robot, const RobotFiles& files, const std::string& why_search) {
+  WriteWhole(files.walk, {StarterConfigText(robot, {.robot_file = files.robot.filename().string(),
+                                                    .why_search = why_search})});
+}
+
+// Runs the config of six steps, with proofs.
+std::unique_ptr<ExperimentRun> WalkSixSteps(const RobotFiles& files, bool quiet,
+                                            const InterruptGuard& interrupt) {
+  ProgressBar bar("six steps", quiet);
+  const RunHooks hooks{.progress = [&bar](const std::string&, double done) { bar.Update(done); },
                        .stop = interrupt.token()};
-  ExperimentRun run(LoadConfig(files.walk.string(), {}), hooks);
-  run.Smooth(hooks);
-  run.Explain(interrupt.token());
-  run.Certify(interrupt.token());
-  bar.reset();
+  auto run = std::make_unique<ExperimentRun>(LoadConfig(files.walk.string(), {}), hooks);
+  run->Smooth(hooks);
+  run->Explain(interrupt.token());
+  run->Certify(interrupt.token());
+  return run;
+}
+
+// What the robot cannot do, where half-steps from rest to rest are not feasible, as a sentence
+// without its subject; "": they are, or it is not known.
+std::string WhyNoRest(const ExperimentRun& run) {
+  if (run.runs().front().result.feasible || run.infeasible().empty()) return "";
+  const std::vector<MissedDemand>& demands = run.infeasible().front().missed.demands;
+  if (demands.empty()) return "";
+  const Margin& worst = demands.front().worst;
+  if (worst.family != MarginFamily::kTorque) {
+    return "cannot make one half-step after the other: " +
+           run.problem().evaluator().Describe(worst);
+  }
+  const Leg& leg = Nth(run.experiment().robot.legs, worst.subject / 6);
+  const LegJoint& joint = Nth(leg.joints, worst.subject % 6);
+  return Formatted("is too weak to rest on one foot, where %s would need %.1f of its %.1f N m",
+                   joint.name.c_str(), joint.max_torque - worst.value, joint.max_torque);
+}
+
+// Walks, proves and tells; whether the walk is certified.
+bool Walk(const RobotModel& robot, const RobotFiles& files, bool quiet) {
+  InterruptGuard interrupt;
+  auto run = WalkSixSteps(files, quiet, interrupt);
+  const std::string why = interrupt.requested() ? "" : WhyNoRest(*run);
+  if (!why.empty()) {
+    std::cerr << "halfstep: " << robot.name << " " << why << "; a search looks for another walk\n";
+    WriteWalk(robot, files, why);
+    run = WalkSixSteps(files, quiet, interrupt);
+  }
   if (!quiet) {
     std::cout << '\n'
-              << RunTable(run.experiment(), run.problem(), run.runs(),
+              << RunTable(run->experiment(), run->problem(), run->runs(),
                           {files.robot.string() + ", " + files.picture.string() + ", " +
                                files.walk.string(),
                            "`halfstep run " + files.walk.string() + " --json`"});
   }
-  const MethodRun& last = run.runs().back();
+  const MethodRun& last = run->runs().back();
   if (last.certified.answer.verdict == Verdict::kFeasible) return true;
   std::vector<std::string> lines;
-  for (const InfeasibleWalk& walk : run.infeasible()) lines = InfeasibleText(run.problem(), walk);
+  for (const InfeasibleWalk& walk : run->infeasible()) {
+    lines = InfeasibleText(run->problem(), walk);
+  }
+  if (!why.empty()) lines.push_back(last.method + ": " + last.result.message);
   TellUnder("the robot file stands, but its six steps are not certified; worst first:", lines);
   return false;
 }
@@ -140,11 +177,10 @@ ExitStatus SurveyRobotFile(const RobotCommand& command) {
   const RobotModel robot = ModelOrRefusal(draft, files.robot);
   WriteWhole(files.robot, {YamlOf(draft)});
   WriteWhole(files.picture, {RobotPicture(robot)});
-  WriteWhole(files.walk,
-             {StarterConfigText(robot, {.robot_file = files.robot.filename().string()})});
+  WriteWalk(robot, files, "");
   TellWarnings(robot);
   if (!command.quiet) Tell(draft, robot);
-  return Walk(files, command.quiet) ? kSuccess : kFailed;
+  return Walk(robot, files, command.quiet) ? kSuccess : kFailed;
 }
 
 CommandAction DeclareRobot(CLI::App* app, const Toolbox&) {

@@ -3,6 +3,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
@@ -49,14 +50,23 @@ void TellRepaired(const ExperimentRun& run) {
   for (const std::string& sentence : run.repaired()) std::cerr << "halfstep: " << sentence << '\n';
 }
 
+// Whether every method found a walk, whatever the planned motion is.
+bool AllFound(const ExperimentRun& run) {
+  const auto methods = std::span(run.runs()).subspan(1);
+  return !methods.empty() &&
+         std::ranges::all_of(methods, [](const MethodRun& each) { return each.result.feasible; });
+}
+
 // Why the plan is not feasible, or the given walk, and what would help.
 void TellInfeasible(const ExperimentRun& run) {
   bool told = !run.wants_plan() || run.runs().front().result.feasible;
   for (const InfeasibleWalk& walk : run.infeasible()) {
     const bool given = walk.method == "given";
     told = told || !given;
-    TellUnder(given ? "the given walk is not feasible; worst first:"
-                    : "the plan is not feasible; worst first:",
+    TellUnder(given           ? "the given walk is not feasible; worst first:"
+              : AllFound(run) ? "the plan itself is not feasible, what was made of it is; worst "
+                                "first:"
+                              : "the plan is not feasible; worst first:",
               InfeasibleText(run.problem(), walk));
   }
   if (told) return;  // else it was stopped before that was known
@@ -73,7 +83,8 @@ bool TellsGiven(const ExperimentRun& run) {
 bool TellWhatDidNotWork(const ExperimentRun& whole, bool wants_plan) {
   bool did_not = false;
   for (const MethodRun& run : whole.runs()) {
-    if (!DidNotWork(run.result.ending) || (run.method == "raw" && !wants_plan)) continue;
+    if (!DidNotWork(run.result.ending)) continue;
+    if (run.method == "raw" && (!wants_plan || AllFound(whole))) continue;
     did_not = true;
     if (run.method == "given" && TellsGiven(whole)) continue;  // told already
     std::cerr << "halfstep: " << run.method << ": " << Name(run.result.ending) << ": "
@@ -105,7 +116,7 @@ ExitStatus Run(const RunCommand& command) {
   run.Smooth(hooks);
   bars.End();
   const bool wants_plan = run.wants_plan();
-  const bool feasible = run.runs().front().result.feasible || !wants_plan;
+  const bool feasible = run.runs().front().result.feasible || !wants_plan || AllFound(run);
   TellRepaired(run);
   run.Explain(interrupt.step_token());
   TellInfeasible(run);  // before the tables, which take longer

@@ -37,7 +37,10 @@ enum class Law {
   kDelay,
   kSupport,
   kSole,
-  kTime
+  kTime,
+  kSpeed,
+  kRate,
+  kGap
 };
 
 // The decimal number of three digits that is nearest: HRP-2's numbers stay what they are.
@@ -80,7 +83,12 @@ double Scaled(Law law, double hrp2, const RobotMeasures& robot) {
     case Law::kSole:
       return Rounded(hrp2 * robot.sole_width / kSoleWidth);
     case Law::kTime:
+    case Law::kSpeed:  // of bodies that fall alike (Froude)
       return Rounded(hrp2 * std::sqrt(length));
+    case Law::kRate:
+      return Rounded(hrp2 / std::sqrt(length));
+    case Law::kGap:
+      return Rounded(hrp2 * std::min(1.0, length));
   }
   return hrp2;
 }
@@ -107,7 +115,12 @@ std::string FormulaOf(Law law, const std::string& hrp2) {
     case Law::kSole:
       return "`" + hrp2 + "` · sole width/0.137 m";
     case Law::kTime:
+    case Law::kSpeed:
       return "`" + hrp2 + "` · √(ℓ/0.705 m)";
+    case Law::kRate:
+      return "`" + hrp2 + "` / √(ℓ/0.705 m)";
+    case Law::kGap:
+      return "`" + hrp2 + "` · min(1, ℓ/0.705 m)";
   }
   return hrp2;
 }
@@ -145,7 +158,11 @@ std::vector<ScaledDefault> ScaledDefaults() {
       {"planner.bounding_box.feet_apart_m", Law::kWidth},
       {"planner.bounding_box.spacing_m", Law::kLength},
       {"planner.bounding_box.corridor_m", Law::kLength},
+      {"smoothing.margins.zmp_m", Law::kSole},
       {"smoothing.margins.zmp_robot_m", Law::kSole},
+      {"smoothing.margins.self_clearance_m", Law::kGap},
+      {"smoothing.limits.foot_speed_m_s", Law::kSpeed},
+      {"smoothing.limits.foot_yaw_rate_rad_s", Law::kRate},
       {"smoothing.margins.double_support_s", Law::kTime},
   };
   for (const ParameterFamily family : AllParameterFamilies()) {

@@ -38,8 +38,18 @@ void DeclareGiven(Fields& fields, GivenWalkFiles* files) {
   }
 }
 
-// The limits become those of the profile that the file names, where that is another one than
-// before.
+// What the profile that the file names says otherwise than the one before becomes what it says; the
+// rest stays, scaled as it is.
+void TakeProfile(DemandProfile before, DemandProfile now, MarginLimits* limits) {
+  const MarginLimits was = LimitsOf(before), is = LimitsOf(now);
+  for (const MarginFamily family : AllMarginFamilies()) {
+    if (was.demanded_of(family) == is.demanded_of(family)) continue;
+    limits->demanded_of(family) = is.demanded_of(family);
+  }
+  if (was.foot_speed != is.foot_speed) limits->foot_speed = is.foot_speed;
+  if (was.foot_yaw_rate != is.foot_yaw_rate) limits->foot_yaw_rate = is.foot_yaw_rate;
+}
+
 void DeclareProfile(Fields& fields, SmoothingConfig* c) {
   std::vector<std::string> names;
   for (const DemandProfile profile : kDemandProfiles) names.emplace_back(Name(profile));
@@ -48,13 +58,12 @@ void DeclareProfile(Fields& fields, SmoothingConfig* c) {
               {.meaning = "what is demanded without further keys: `walkable`, what a robot needs; "
                           "`limit`, what physics allows; `paper`, what the source paper asked",
                .choices = names});
-  if (c->profile == before) return;
-  for (const DemandProfile profile : kDemandProfiles) {
-    if (c->profile != Name(profile)) continue;
-    OwnMargins own = std::move(c->limits.own);
-    c->limits = LimitsOf(profile);
-    c->limits.own = std::move(own);
-  }
+  const auto of = [](const std::string& name) {
+    return std::ranges::find(kDemandProfiles, name, [](DemandProfile p) { return Name(p); });
+  };
+  const auto was = of(before), is = of(c->profile);
+  if (was == is || was == kDemandProfiles.end() || is == kDemandProfiles.end()) return;
+  TakeProfile(*was, *is, &c->limits);
 }
 
 void DeclareLimits(Fields& fields, SmoothingConfig* c) {

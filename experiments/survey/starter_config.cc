@@ -53,6 +53,11 @@ std::string StarterConfigText(const RobotModel& robot, const StarterConfig& conf
         "footsteps:  # of the soles' centres; in place of them `goal: {x_m: 2, y_m: 0}` plans\n" +
         FootstepLines(robot, half_step);
   }
+  if (!config.why_search.empty()) {
+    text += "# This robot " + config.why_search +
+            ".\n# So a search looks for a walk that does not rest.\n"
+            "smoothing: {methods: [halfstep/sqp]}\n";
+  }
   text += Formatted(
       "# half_step: {duration_s: %.3g, via_height_m: %.3g}  # so long lasts each, so high goes the "
       "foot\n"

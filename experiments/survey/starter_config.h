@@ -14,6 +14,9 @@ struct StarterConfig {
   std::string scene = "none";  ///< the scene's, likewise; none: an empty floor
   /// Where to go, x and y in W [m]; none: six steps straight ahead (SixSteps).
   std::optional<std::array<double, 2>> goal = {};
+  /// What the robot cannot do, as a sentence without its subject, so that a search is asked for a
+  /// walk; "": it can make one half-step after the other.
+  std::string why_search = {};
 };
 
 /// Text of a config to begin with: its robot and scene, footsteps or a goal, and in comments the

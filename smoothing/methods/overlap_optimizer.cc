@@ -22,6 +22,8 @@ namespace {
 constexpr double kGainedTime = 1e-9;
 // Of the effort, which a dichotomy may use at least.
 constexpr double kBaselinePart = 0.5;
+// Of the effort, what a first walk may take where the planned motion is not feasible.
+constexpr double kFirstPart = 0.5;
 
 class Optimization {
  public:
@@ -38,9 +40,13 @@ class Optimization {
   SmoothingResult Run() {
     monitor_.LimitTo(options_.effort, options_.deadline);
     const HomotopyParameters begin = options_.begin.value_or(problem_.Start());
-    if (!monitor_.BeginFeasibly(problem_, begin)) return monitor_.Refusal();
+    if (!monitor_.BeginFeasibly(problem_, begin) && !FoundFirst()) {
+      return monitor_.Refusal(missed_.empty() ? opt::Ending::kNotRun : opt::Ending::kNoImprovement,
+                              missed_);
+    }
     if (!Safest() && !Fastest()) {  // the monitor takes costs for durations
-      monitor_.Adopt(*monitor_.accepted(), CostAt(begin), DurationOf(begin));
+      const HomotopyParameters& first = monitor_.accepted()->parameters();
+      monitor_.Adopt(*monitor_.accepted(), CostAt(first), DurationOf(first));
     }
     const SearchStart start = Safest() || options_.begin ? SearchStart::kDichotomy : options_.start;
     if (start == SearchStart::kDichotomy && !options_.begin) {
@@ -49,12 +55,7 @@ class Optimization {
     if (monitor_.stopped()) return CutOff();
     const double own = DurationOf(monitor_.incumbent());
     const double limit = options_.duration_limit > 0.0 ? options_.duration_limit : own;
-    RangeOptions range{.solver = solver_,
-                       .program = options_.program,
-                       .duration_limit = limit,
-                       .iterations = options_.max_iterations,
-                       .rounds = options_.rounds,
-                       .tuning = options_.tuning};
+    const RangeOptions range = Range(limit);
     const double effort = (1.0 - options_.tuning.last_part) * monitor_.effort();
     const AcceptedWalk begun = *monitor_.accepted();
     const double cost = monitor_.cost();
@@ -69,6 +70,37 @@ class Optimization {
  private:
   bool Safest() const { return options_.program.kind == ProgramKind::kSafest; }
   bool Fastest() const { return options_.program.kind == ProgramKind::kFastest; }
+
+  RangeOptions Range(double duration_limit) const {
+    return {.solver = solver_,
+            .program = options_.program,
+            .duration_limit = duration_limit,
+            .iterations = options_.max_iterations,
+            .rounds = options_.rounds,
+            .tuning = options_.tuning};
+  }
+
+  // Whether a walk is the incumbent now that was found though the planned motion is not feasible.
+  // Its rests on one foot may be what no parameter mends, while walks without them are feasible.
+  bool FoundFirst() {
+    const bool looks = !options_.begin && !Safest() && options_.start == SearchStart::kTypical &&
+                       !monitor_.interrupted();
+    if (!looks) return false;
+    SearchEnding first = end_;
+    if (FindFirst(problem_, Range(0.0), kFirstPart * monitor_.effort(), monitor_, &first)) {
+      monitor_.DropStart();
+      end_.kept = "the walk is the first that was found";
+      return true;
+    }
+    if (first.called) {
+      missed_ = "; from typical forms no walk was proved either";
+      if (first.last_violation > 0.0) {
+        missed_ += Formatted(", %s stayed violated by at least %.2g", first.last_violated.c_str(),
+                             first.last_violation);
+      }
+    }
+    return false;
+  }
 
   // What a walk costs before the search; `safest` knows it only over the whole program.
   double CostAt(const HomotopyParameters& walk) const {
@@ -180,6 +212,7 @@ class Optimization {
   const std::shared_ptr<const opt::Solver> solver_;
   SmoothingMonitor& monitor_;
   SearchEnding end_;
+  std::string missed_;  // where FindFirst found none
 };
 
 }  // namespace

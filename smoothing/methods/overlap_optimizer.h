@@ -43,14 +43,16 @@ struct OptimizerOptions {
 /// Smooths a whole sequence by a nonlinear program. Whatever the solver does, what is returned was
 /// found feasible by the problem's test, and its cost with it:
 ///   1. the planned motion, or `begin`, is the first incumbent; the result of a dichotomy the next
-///      where the search is to start there;
+///      where the search is to start there. Where the planned motion is not feasible and the search
+///      starts at typical forms, the first walk that it proves is the first incumbent (FindFirst);
 ///   2. the stages of the search (RunStages): rounds in windows on long walks, then over the whole;
 ///   3. `fastest`: a dichotomy's pass from the incumbent over all junctions, with `tolerance`, and
 ///      one from the planned motion where that might still be shorter.
 /// So no method ends worse than the dichotomy. Ending: kConverged when rounds stopped to gain from
 /// every start; kLimit when the effort or all rounds were used, or the last solve broke down;
 /// kNoImprovement, kInvalidInput, kFailed (every solve did) and kNotRun when what is returned does
-/// not come from the search. The message says how the last solve ended.
+/// not come from the search, which is the planned motion, not feasible, where no walk was proved.
+/// The message says how the last solve ended.
 SmoothingResult OptimizeOverlaps(const WalkProblem& problem, const OptimizerOptions& options,
                                  SmoothingMonitor& monitor);
 

@@ -85,7 +85,8 @@ RangeSearch::RangeSearch(const WalkWindow& range, RangeOptions options, Smoothin
                options_.duration_limit, range.problem.fixed()),
       proofs_(range.problem.test(), range.problem.sequence().size(),
               {range.proved_first, range.proved_last}),
-      begun_(!Safest() ? program_.Cost(range.parameters)
+      begun_(!options_.from_proved ? std::numeric_limits<double>::infinity()
+             : !Safest()           ? program_.Cost(range.parameters)
              : DurationOf(range.parameters) <= options_.duration_limit + 1e-9
                  ? 0.0
                  : std::numeric_limits<double>::infinity()),
@@ -95,7 +96,9 @@ RangeSearch::RangeSearch(const WalkWindow& range, RangeOptions options, Smoothin
             range.parameters, begun_, monitor.scratch()) {
   program_.watched().SetWorkers(monitor.workers());
   program_.watched().SetWork(&monitor.scratch()->work);
-  proofs_.Remember(SuperposedWalk(range.problem.sequence(), range.parameters));
+  if (options_.from_proved) {
+    proofs_.Remember(SuperposedWalk(range.problem.sequence(), range.parameters));
+  }
 }
 
 bool RangeSearch::From(const HomotopyParameters& start, double more, double effort) {

@@ -22,6 +22,7 @@ struct RangeOptions {
   int iterations = 3;                         ///< of the solver in a round, at most
   int rounds = 40;                            ///< from a start, at most
   bool first_proof = false;  ///< rounds end with the first end of which nearly all is proved
+  bool from_proved = true;   ///< whether the range's own parameters are proved
   SearchTuning tuning;       ///< its constants
 };
 
@@ -36,8 +37,9 @@ using RangeGain = std::function<void(const HomotopyParameters& part, double cost
 /// search".
 class RangeSearch {
  public:
-  /// `range.parameters` are proved on the stretches that the range may change. All but the options
-  /// is borrowed; `ending` notes how solves ended.
+  /// `range.parameters` are proved on the stretches that the range may change, or else
+  /// `options.from_proved` is false: then they cost +∞. All but the options is borrowed; `ending`
+  /// notes how solves ended.
   RangeSearch(const WalkWindow& range, RangeOptions options, SmoothingMonitor& monitor,
               RangeGain gained, SearchEnding* ending);
 

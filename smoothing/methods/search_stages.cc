@@ -42,6 +42,21 @@ class Stages {
     return stage.window == 0 ? Whole(options) : Windows(stage, options);
   }
 
+  // Whether a first walk is proved.
+  bool First(RangeOptions options) {
+    options.first_proof = true;
+    options.from_proved = false;
+    const WalkWindow range = WholeRange(problem_, at_);
+    RangeSearch search(range, options, monitor_, Adopting(), &end_);
+    if (!search.moves()) return false;
+    for (const HomotopyParameters& start : Starts(range)) {
+      const bool goes_on = search.From(start, 1.0, effort_);
+      if (search.path().accepted() > 0) return true;
+      if (!goes_on) return false;
+    }
+    return false;
+  }
+
  private:
   int size() const { return problem_.sequence().size(); }
 
@@ -223,6 +238,11 @@ bool RunStages(const WalkProblem& problem, std::span<const SearchStage> stages, 
     if (!search.Run(stage)) break;
   }
   return monitor.incumbent() != begun;
+}
+
+bool FindFirst(const WalkProblem& problem, const RangeOptions& options, double effort,
+               SmoothingMonitor& monitor, SearchEnding* ending) {
+  return Stages(problem, SearchStart::kTypical, options, effort, monitor, ending).First(options);
 }
 
 }  // namespace halfstep

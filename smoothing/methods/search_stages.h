@@ -39,4 +39,10 @@ bool RunStages(const WalkProblem& problem, std::span<const SearchStage> stages, 
                const RangeOptions& options, double effort, SmoothingMonitor& monitor,
                SearchEnding* ending);
 
+/// Looks for a walk that is proved where the planned motion is not: rounds over the whole walk,
+/// from each of RunStages' starts, until one is proved or `effort` of the monitor is used. It is
+/// adopted, whatever it costs. Returns whether there is one.
+bool FindFirst(const WalkProblem& problem, const RangeOptions& options, double effort,
+               SmoothingMonitor& monitor, SearchEnding* ending);
+
 }  // namespace halfstep

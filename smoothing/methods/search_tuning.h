@@ -3,8 +3,8 @@
 namespace halfstep {
 
 /// The constants of searches in rounds (RangeSearch), one place for all of them. Source:
-/// smoothing/README.md, "The search"; what some of them do to walks: notebooks-data/measurements.md,
-/// "Search by effort".
+/// smoothing/README.md, "The search"; what some of them do to walks:
+/// notebooks-data/measurements.md, "Search by effort".
 struct SearchTuning {
   /// Instants a half-step with rows of their own, where a solver likes many rows.
   int instants = 24;

@@ -59,8 +59,11 @@ class SmoothingMonitor {
   bool BeginFeasibly(const WalkProblem& problem, const HomotopyParameters& start);
   /// The same for a start that the problem's test has accepted: nothing is checked.
   void BeginAccepted(const WalkProblem& problem, AcceptedWalk start);
-  /// The result when BeginFeasibly returned false: the start, not feasible.
-  SmoothingResult Refusal() { return Finish(opt::Ending::kNotRun, refusal_); }
+  /// The result when BeginFeasibly returned false: the start, not feasible; `also` is added to the
+  /// message.
+  SmoothingResult Refusal(opt::Ending ending = opt::Ending::kNotRun, const std::string& also = "") {
+    return Finish(ending, refusal_ + also);
+  }
 
   /// Whether the search is to end: its effort is used, the caller asked for it, or the deadline has
   /// passed.
