@@ -26,7 +26,7 @@ Feasibility Judgement(const WalkProblem& problem, const CertifiedFeasibility& ce
 
 void JudgeAtTheEnd(const WalkProblem& problem, const CertifiedFeasibility& certifier,
                    const std::stop_token& stop, Workers* workers, MethodRun* run) {
-  if (opt::DidNotWork(run->result.ending)) return;
+  if (opt::DidNotWork(run->result.ending) || !run->result.feasible) return;  // it claims nothing
   // RunSmoother has asked the samples. Between these others may tell otherwise, as the certificate
   // does.
   if (problem.test().evidence() == Evidence::kSampled) return;

@@ -161,7 +161,8 @@ std::vector<Vector3d> PlanesBelow(const std::vector<const RobotBody*>& bodies,
   const Vector3d middle = corners.rowwise().mean();
   const Eigen::JacobiSVD<Eigen::Matrix3Xd> svd(corners.colwise() - middle, Eigen::ComputeFullU);
   if (svd.singularValues()[2] > 1e-6 * svd.singularValues()[0]) {
-    for (const Vector3d& normal : MakeHull(corners).normals.colwise()) add(normal);
+    const ConvexBody hull = MakeHull(corners);
+    for (const Vector3d& normal : hull.normals.colwise()) add(normal);
   } else if (svd.singularValues()[1] > 1e-6 * svd.singularValues()[0]) {
     const Vector3d normal = svd.matrixU().col(2);
     add(normal.dot(down) < 0 ? Vector3d(-normal) : normal);

@@ -34,6 +34,25 @@ double KneeAhead(const Leg& leg, const Vector6d& q) {
   return (off - off.dot(frames.axis_B[3]) * frames.axis_B[3]).x();
 }
 
+// The closed form takes hip and ankle axes for axes that meet. Where they do not, the sole is level
+// but elsewhere: asked for as much elsewhere the other way, a few times, it comes to its place.
+std::optional<Vector6d> AtItsPlace(const Leg& leg, const Eigen::Isometry3d& X_BSole,
+                                   const LegIkBranchSolution& near) {
+  constexpr double kNear = 1e-9;  // [m]
+  Vector6d q = near.q;
+  Eigen::Isometry3d asked = X_BSole;
+  for (int round = 0; round < 50; ++round) {
+    const Vector3d off = X_BSole.translation() - PlaceLeg(leg, q).X_BLink[6].translation();
+    if (off.norm() < kNear) return q;
+    asked.translation() += off;
+    const LegIkSolution solution = SolveLegIk(leg, asked, near.branch);
+    if (solution.status != LegIkStatus::kSolved) return std::nullopt;
+    q = solution.q;
+    if (!FitLimits(leg, &q)) return std::nullopt;
+  }
+  return std::nullopt;
+}
+
 Eigen::Isometry3d SolePlace(Side side, const StandingRequest& request, double z) {
   Eigen::Isometry3d X_BSole = Eigen::Isometry3d::Identity();
   X_BSole.translation() = Vector3d(request.x, Sign(side) * 0.5 * request.width, z);
@@ -54,7 +73,7 @@ std::optional<double> StandingHeight(const Leg& leg, Side side, const StandingRe
 std::optional<Vector6d> FindStanding(const Leg& leg, Side side, const StandingRequest& request,
                                      double z) {
   const Eigen::Isometry3d X_BSole = SolePlace(side, request, z);
-  std::optional<Vector6d> best;
+  std::optional<LegIkBranchSolution> best;
   double farthest = -std::numeric_limits<double>::infinity();
   for (LegIkBranchSolution& solution : SolveLegIkAll(leg, X_BSole)) {
     if (!FitLimits(leg, &solution.q)) continue;
@@ -63,10 +82,11 @@ std::optional<Vector6d> FindStanding(const Leg& leg, Side side, const StandingRe
     const double value = ahead - 1e-3 * solution.q.norm();
     if (value > farthest) {
       farthest = value;
-      best = solution.q;
+      best = solution;
     }
   }
-  return best;
+  if (!best) return std::nullopt;
+  return AtItsPlace(leg, X_BSole, *best);
 }
 
 double NarrowestStance(const std::array<Leg, 2>& legs, const std::array<FoundSole, 2>& soles,

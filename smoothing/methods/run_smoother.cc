@@ -50,6 +50,9 @@ SmoothingResult Judged(const WalkProblem& problem, SmoothingResult result,
   }
   result.feasible = result.accepted.has_value();
   if (result.feasible || answer.stopped) return result;
+  // Who returns what it was started from, and says so, claims nothing.
+  const bool start = result.parameters == problem.Start();
+  if (start && result.ending == opt::Ending::kNoImprovement) return result;
   result.message = UnprovedSentence(problem, answer, result);
   result.ending = opt::Ending::kFailed;
   return result;
