@@ -26,6 +26,8 @@ constexpr double kNearFloor = 1e-3;  // what is less above the lowest point touc
 // other are one flat part [rad].
 constexpr double kFlat = 0.01, kOnePart = 0.02;
 constexpr double kLeastSole = 5e-3;  // either side of its rectangle [m]
+// Of the largest rectangle on which a foot can stand, what a flat part has at least.
+constexpr double kCarries = 0.5;
 
 // The direction in which the largest flat part of the bodies faces, within 60° of `down`; zero when
 // there is none. Triangles within 1° of each other are one part.
@@ -194,12 +196,12 @@ FoundSole SoleAcross(const Matrix3d& R_FB, const std::vector<const RobotBody*>& 
 FoundSole FindSole(const Leg& leg, const std::vector<const RobotBody*>& bodies) {
   const Matrix3d R_FB = leg.joints[5].X_BLink.linear().transpose();
   const Vector3d down = R_FB * -Vector3d::UnitZ();
+  FoundSole flat;
   if (const Vector3d normal = LargestFace(bodies, down); !normal.isZero()) {
-    FoundSole sole = SoleAcross(R_FB, bodies, normal);
-    sole.what =
-        "the largest flat part of each foot's bodies and all that is less than 1 mm above "
-        "its lowest point";
-    if (sole.size.minCoeff() >= kLeastSole) return sole;
+    flat = SoleAcross(R_FB, bodies, normal);
+    flat.what =
+        "the largest flat part of each foot's bodies and all that is less than 1 mm above its "
+        "lowest point";
   }
   FoundSole best;
   std::vector<Vector3d> normals = PlanesBelow(bodies, down);
@@ -208,12 +210,15 @@ FoundSole FindSole(const Leg& leg, const std::vector<const RobotBody*>& bodies) 
     const FoundSole sole = SoleAcross(R_FB, bodies, normal);
     if (sole.size.minCoeff() >= kLeastSole && sole.size.prod() > best.size.prod()) best = sole;
   }
+  best.what = "the plane below each foot's lowest balls, cylinders, edges and points";
+  // A flat part that carries little is a facet of what is round.
+  const bool carries = flat.size.minCoeff() >= kLeastSole;
+  if (carries && kCarries * best.size.prod() < flat.size.prod()) return flat;
   if (best.size.isZero()) {
     throw std::runtime_error("the foot " + bodies.front()->name +
                              " stands on an edge or a point with all joints at zero (valid: a flat "
                              "part, or three balls, edges or points; or --sole LENGTH WIDTH)");
   }
-  best.what = "the plane below each foot's lowest balls, cylinders, edges and points";
   return best;
 }
 

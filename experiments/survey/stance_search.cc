@@ -50,7 +50,7 @@ class StanceSearch {
     const bool may_widen = request_.width == 0.0;
     Found best = LiftLess();
     const double before = best.apart;
-    for (int wider = 1; may_widen && best.apart < kTouchByDesign && wider <= 5; ++wider) {
+    for (int wider = 1; may_widen && best.apart < NearByDesign(best.model) && wider <= 5; ++wider) {
       RobotDraft narrower = draft_;
       draft_.standing.width = narrowest * (1 + 0.1 * wider);
       draft_.why_width = Formatted("%.3f m apart, a body ", narrowest) + NearnessText(before) +
@@ -70,7 +70,7 @@ class StanceSearch {
  private:
   struct Found {
     RobotModel model;
-    double apart = 0.0;  // at most kTouchByDesign [m]
+    double apart = 0.0;  // at most NearByDesign [m]
   };
 
   void TakeNarrowest() {
@@ -93,15 +93,24 @@ class StanceSearch {
       standing.bend = request_.bend;
       return;
     }
+    // Less bend than the first that makes a robot; where none does, more.
     double best = 0.9, highest = -1.0;
-    for (const double bend : {0.9, 0.92, 0.94, 0.96, 0.98}) {
+    std::optional<InputError> refusal;
+    for (const double bend : {0.9, 0.92, 0.94, 0.96, 0.98, 0.87, 0.84, 0.8, 0.75}) {
+      if (bend < 0.9 && highest >= 0.0) break;
       standing.bend = bend;
       if (!TryToStand().empty()) continue;
-      const RobotModel model = ModelOf(draft_, RobotParts::kLegs);
-      const RobotMeasures measures = MeasuresOf(model);
+      std::optional<RobotModel> model;
+      try {
+        model = ModelOf(draft_, RobotParts::kLegs);
+      } catch (const InputError& error) {  // too near to a singularity, say
+        if (!refusal) refusal = error;
+        continue;
+      }
+      const RobotMeasures measures = MeasuresOf(*model);
       const bool high_enough = measures.lift >= kLeastLift * measures.leg_length;
       if (highest >= kLeastLift * measures.leg_length && !high_enough) break;
-      const double torque = LeastTorqueMargin(model);
+      const double torque = LeastTorqueMargin(*model);
       const bool strong_enough = torque >= 0.0;
       if (measures.lift > highest || strong_enough) {
         highest = measures.lift;
@@ -112,7 +121,9 @@ class StanceSearch {
           high_enough ? Formatted("with more bend a joint lacks %.1f N m in six steps", -torque)
                       : "with more bend the joints' limits keep the swing foot lower";
     }
+    if (highest < 0.0 && refusal) throw InputError(*refusal);
     standing.bend = best;
+    if (best < 0.9) draft_.why_bend = "with less bend a leg is too near to a singularity";
     if (best == 0.9) draft_.why_bend.clear();
   }
 
@@ -120,7 +131,7 @@ class StanceSearch {
   std::vector<SelfGap> StrangersThatTouch(const RobotModel& model) const {
     const std::vector<bool> of_limb =
         BodiesOfLimbs(draft_.urdf, draft_.legs.waist, draft_.posture, model);
-    std::vector<SelfGap> gaps = SelfGaps(model, WalkedPostures(model)).Nearer(kTouchByDesign);
+    std::vector<SelfGap> gaps = SelfGaps(model, WalkedPostures(model)).Nearer(NearByDesign(model));
     std::erase_if(gaps, [&](const SelfGap& gap) {
       if (Nth(of_limb, gap.a) || Nth(of_limb, gap.b)) return true;
       return !AreOfBothLegs(model, gap) &&
@@ -139,9 +150,10 @@ class StanceSearch {
   // design: NeighboursThatTouch excludes the links, with all of their bodies.
   static std::set<LinkPair> TouchingByDesign(const RobotModel& model,
                                              const std::vector<SelfGap>& gaps) {
+    const double near = NearByDesign(model);
     std::set<LinkPair> links;
     for (const SelfGap& gap : gaps) {
-      if (!AreOfBothLegs(model, gap) && gap.standing < kTouchByDesign) {
+      if (!AreOfBothLegs(model, gap) && gap.standing < near) {
         links.insert(LinksOf(model, gap));
       }
     }
@@ -186,7 +198,7 @@ class StanceSearch {
       const std::set<LinkPair> by_design = TouchingByDesign(model, gaps);
       std::erase_if(gaps,
                     [&](const SelfGap& gap) { return by_design.contains(LinksOf(model, gap)); });
-      double apart = kTouchByDesign;
+      double apart = NearByDesign(model);
       const SelfGap* nearest = nullptr;
       for (const SelfGap& gap : gaps) {
         if (gap.least < apart) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "experiments/survey/arm_posture.h"
+#include "experiments/survey/stance_search.h"
 #include "wpg/files/text.h"
 #include "wpg/nth.h"
 #include "wpg/robot/self_pairs.h"
@@ -36,6 +37,10 @@ int LegJointsBetween(const UrdfTree& urdf, const FoundLegs& legs, const RobotMod
   return count;
 }
 
+double NearByDesign(const RobotModel& robot) {
+  return 1.4 * DefaultLimits(robot).demanded_of(MarginFamily::kSelfClearance);
+}
+
 std::string NearnessText(double gap) {
   return gap < 0 ? Formatted("reaches %.1f mm into", -1e3 * gap)
                  : Formatted("comes within %.1f mm of", 1e3 * gap);
@@ -45,12 +50,13 @@ std::vector<ExcludedPair> NeighboursThatTouch(const UrdfTree& urdf, const FoundL
                                               const std::vector<double>& posture,
                                               const RobotModel& robot, const SelfGaps& gaps) {
   const std::vector<bool> of_limb = BodiesOfLimbs(urdf, legs.waist, posture, robot);
+  const double near = NearByDesign(robot);
   std::vector<ExcludedPair> excluded;
-  for (const SelfGap& gap : gaps.Nearer(kTouchByDesign)) {
+  for (const SelfGap& gap : gaps.Nearer(near)) {
     if (AreOfBothLegs(robot, gap) || Nth(of_limb, gap.a) || Nth(of_limb, gap.b)) continue;
     const auto link = [&](int body) { return LinkOf(Nth(robot.bodies, body)); };
     const int joints = LegJointsBetween(urdf, legs, robot, gap);
-    if (joints > 2 && gap.standing >= kTouchByDesign) continue;
+    if (joints > 2 && gap.standing >= near) continue;
     const auto is_there = [&](const ExcludedPair& pair) {
       return Names(pair, link(gap.a), link(gap.b));
     };

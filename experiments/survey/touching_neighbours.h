@@ -9,9 +9,9 @@
 
 namespace halfstep {
 
-/// Bodies that come nearer than this are watched for, or touch by design [m]: a little more than
-/// the self clearance that is demanded by default.
-constexpr double kTouchByDesign = 7e-3;
+/// Bodies that come nearer than this are watched for, or touch by design [m]: 1.4 times the self
+/// clearance that is demanded of the robot by default.
+double NearByDesign(const RobotModel& robot);
 
 /// Whether a pair is of both legs.
 bool AreOfBothLegs(const RobotModel& robot, const SelfGap& gap);
@@ -28,7 +28,7 @@ std::string LinkOf(const RobotBody& body);
 std::string NearnessText(double gap);
 
 /// Links whose bodies touch by design: those of one leg, or of a leg and the trunk, with at most
-/// two leg joints between them, that come nearer than kTouchByDesign in the sampled postures; and
+/// two leg joints between them, that come nearer than NearByDesign in the sampled postures; and
 /// with more joints between them, that stand nearer. Limbs beside the plane of symmetry can be
 /// turned away and are no neighbours of the legs. The reason tells how near they come.
 std::vector<ExcludedPair> NeighboursThatTouch(const UrdfTree& urdf, const FoundLegs& legs,
