@@ -33,19 +33,23 @@ double LeastInSixSteps(const RobotModel& robot, MarginFamily family, double peri
 FoundSupport FindSupport(RobotModel robot) {
   FoundSupport found;
   if (!robot.masses.fault.empty()) return found;
-  const auto zmp_of_robot = [&robot] {
-    return LeastInSixSteps(robot, MarginFamily::kZmpRobot, kSupportPeriod);
+  const MarginLimits limits = DefaultLimits(robot);
+  const auto of = [&robot](MarginFamily family) {
+    return LeastInSixSteps(robot, family, kSupportPeriod);
   };
   robot.support_point = 0.0;
-  found.before = found.after = zmp_of_robot();
-  if (found.before >= DefaultLimits(robot).demanded_of(MarginFamily::kZmpRobot)) return found;
+  found.before = found.after = of(MarginFamily::kZmpRobot);
+  double slack = found.before - limits.demanded_of(MarginFamily::kZmpRobot);
+  if (slack >= 0.0) return found;
   for (const double direction : {-1.0, 1.0}) {
     for (int i = 1; i * kSupportStep < 0.5 * robot.sole_size.y(); ++i) {
       robot.support_point = direction * i * kSupportStep;
-      const double both =
-          std::min(LeastInSixSteps(robot, MarginFamily::kZmp, kSupportPeriod), zmp_of_robot());
-      if (!(both > found.after)) break;
-      found.after = both;
+      const double own = of(MarginFamily::kZmpRobot);
+      const double both = std::min(own - limits.demanded_of(MarginFamily::kZmpRobot),
+                                   of(MarginFamily::kZmp) - limits.demanded_of(MarginFamily::kZmp));
+      if (!(both > slack)) break;
+      slack = both;
+      found.after = own;
       found.offset = robot.support_point;
     }
     if (found.offset != 0.0) break;

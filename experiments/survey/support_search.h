@@ -13,12 +13,12 @@ double LeastInSixSteps(const RobotModel& robot, MarginFamily family, double peri
 struct FoundSupport {
   double offset = 0.0;  ///< RobotModel::support_point [m]
   double before = 0.0;  ///< the whole robot's ZMP inside the support polygon without it [m]
-  double after = 0.0;   ///< with it, or the point mass's ZMP where that is less far inside [m]
+  double after = 0.0;   ///< the same with it [m]
 };
 
 /// Where the whole robot's ZMP, in six steps, is not as far inside the support polygon as is
 /// demanded by default: the support point, in whole millimetres, with which both ZMPs, the
-/// robot's and the point mass's, are farthest inside. Offset 0 where nothing is missed, where the
+/// robot's and the point mass's, have most left of what is demanded of each. Offset 0 where nothing is missed, where the
 /// robot's masses are not known, or where no other offset is better.
 FoundSupport FindSupport(RobotModel robot);
 

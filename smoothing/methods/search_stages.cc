@@ -49,10 +49,14 @@ class Stages {
     const WalkWindow range = WholeRange(problem_, at_);
     RangeSearch search(range, options, monitor_, Adopting(), &end_);
     if (!search.moves()) return false;
-    for (const HomotopyParameters& start : Starts(range)) {
-      const bool goes_on = search.From(start, 1.0, effort_);
+    // Each start has its part of the effort, since any of them may lead nowhere.
+    const std::vector<HomotopyParameters> starts = Starts(range);
+    for (size_t i = 0; i < starts.size(); ++i) {
+      const double used = monitor_.work().effort();
+      const double part = (effort_ - used) / static_cast<double>(starts.size() - i);
+      search.From(starts[i], 1.0, used + part);
       if (search.path().accepted() > 0) return true;
-      if (!goes_on) return false;
+      if (monitor_.cut_off()) return false;
     }
     return false;
   }

@@ -159,6 +159,20 @@ TEST(RobotAsBuilt, DifferencesOfLegsHaveASize) {
               ElementsAre(HasSubstr("the torque limit of RLEG_JOINT3 by ")));
 }
 
+// Such as Drake's note that a mesh is convex, beside the shape or before it.
+TEST(RobotAsBuilt, ElementsOfOtherProgramsAreNoShapes) {
+  const std::string urdf =
+      ReadYamlFile(std::filesystem::path(kHrp2).replace_extension("urdf").string());
+  const std::string path = testing::TempDir() + "halfstep_foreign.urdf";
+  std::ofstream(path) << Replaced(urdf, "<geometry>", "<geometry><drake:declare_convex/>");
+  const UrdfTree read = ReadUrdf(path), plain = Hrp2Tree();
+  EXPECT_THAT(read.warnings, IsEmpty());
+  ASSERT_EQ(read.links.size(), plain.links.size());
+  for (size_t i = 0; i < plain.links.size(); ++i) {
+    EXPECT_EQ(read.links[i].collisions.size(), plain.links[i].collisions.size());
+  }
+}
+
 TEST(RobotAsBuilt, APackageThatNothingNamesIsTold) {
   const std::string text = Replaced(ReadYamlFile(kHrp2), "packages: {", "packages: {gone: /no, ");
   EXPECT_THAT(Built(text, Hrp2Tree()).warnings,

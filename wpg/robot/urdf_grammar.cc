@@ -116,15 +116,22 @@ void CheckAttributes(const UrdfElements& elements, const TiXmlElement& at, const
   }
 }
 
+// Elements of other programs, such as <drake:declare_convex/>, say nothing of URDF.
+bool IsForeign(const TiXmlElement& child) {
+  return child.ValueStr().find(':') != std::string::npos;
+}
+
 void CheckElement(const UrdfElements& elements, TiXmlElement& at, const Element& read) {
   CheckAttributes(elements, at, read);
   std::vector<const Element*> seen;
+  int own = 0;  // children
   for (auto* child = at.FirstChildElement(); child != nullptr;
        child = child->NextSiblingElement()) {
+    if (IsForeign(*child)) continue;
     const Element* const known = Find(read, child->ValueStr());
     if (known == nullptr) CheckTag(elements, *child, read);
     const bool again = std::ranges::find(seen, known) != seen.end();
-    if (read.one_child && child != at.FirstChildElement()) {
+    if (read.one_child && own++ > 0) {
       elements.Complain(*child, child->ValueStr(),
                         "a second shape in one <" + at.ValueStr() +
                             "> (valid: one; another one has a <collision> of its own)");
