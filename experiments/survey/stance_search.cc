@@ -220,15 +220,22 @@ class StanceSearch {
     return best;
   }
 
-  // Moves the support points where the whole robot's ZMP would come too near to the soles' edges.
+  // Moves the support points where the whole robot's ZMP would come too near to the soles' edges,
+  // or a joint lack torque.
   void Support(RobotModel* model) {
     const FoundSupport found = FindSupport(*model);
     if (found.offset == 0.0) return;
     draft_.support_point = model->support_point = found.offset;
-    draft_.why_support = Formatted(
-        "Where the soles' centres carry, the robot's ZMP is %.1f mm inside the support polygon in "
-        "six steps; so %.1f mm.",
-        1e3 * found.before, 1e3 * found.after);
+    draft_.why_support =
+        found.missed == MarginFamily::kTorque
+            ? Formatted(
+                  "Where the soles' centres carry, a joint has %.1f N m left of its torque in "
+                  "six steps; so %.1f N m.",
+                  found.before, found.after)
+            : Formatted(
+                  "Where the soles' centres carry, the robot's ZMP is %.1f mm inside the "
+                  "support polygon in six steps; so %.1f mm.",
+                  1e3 * found.before, 1e3 * found.after);
   }
 
   void Stand() {

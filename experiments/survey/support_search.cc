@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "experiments/survey/self_gaps.h"
 #include "experiments/survey/stance_search.h"
 #include "smoothing/margins/margin_evaluator.h"
 #include "smoothing/walk/superposed_walk.h"
+#include "wpg/robot/torque_limits.h"
 
 namespace halfstep {
 namespace {
@@ -33,27 +35,39 @@ double LeastInSixSteps(const RobotModel& robot, MarginFamily family, double peri
 FoundSupport FindSupport(RobotModel robot) {
   FoundSupport found;
   if (!robot.masses.fault.empty()) return found;
+  std::vector<MarginFamily> families = {MarginFamily::kZmpRobot};
+  if (TorqueFault(robot).empty()) families.push_back(MarginFamily::kTorque);
   const MarginLimits limits = DefaultLimits(robot);
-  const auto of = [&robot](MarginFamily family) {
-    return LeastInSixSteps(robot, family, kSupportPeriod);
+  const auto least = [&] {
+    double slack = std::numeric_limits<double>::infinity();
+    for (const MarginFamily family : families) {
+      const Margin margin{.family = family,
+                          .value = LeastInSixSteps(robot, family, kSupportPeriod)};
+      if (limits.Slack(margin) >= slack) continue;
+      slack = limits.Slack(margin);
+      found.missed = family;
+    }
+    return slack;
   };
   robot.support_point = 0.0;
-  found.before = found.after = of(MarginFamily::kZmpRobot);
-  double slack = found.before - limits.demanded_of(MarginFamily::kZmpRobot);
-  if (slack >= 0.0) return found;
+  double best = least();
+  const MarginFamily missed = found.missed;
+  if (best < 0.0) families.push_back(MarginFamily::kZmp);
   for (const double direction : {-1.0, 1.0}) {
+    if (best >= 0.0 || found.offset != 0.0) break;
     for (int i = 1; i * kSupportStep < 0.5 * robot.sole_size.y(); ++i) {
       robot.support_point = direction * i * kSupportStep;
-      const double own = of(MarginFamily::kZmpRobot);
-      const double both = std::min(own - limits.demanded_of(MarginFamily::kZmpRobot),
-                                   of(MarginFamily::kZmp) - limits.demanded_of(MarginFamily::kZmp));
-      if (!(both > slack)) break;
-      slack = both;
-      found.after = own;
+      const double slack = least();
+      if (!(slack > best)) break;
+      best = slack;
       found.offset = robot.support_point;
     }
-    if (found.offset != 0.0) break;
   }
+  found.missed = missed;
+  robot.support_point = 0.0;
+  found.before = LeastInSixSteps(robot, missed, kSupportPeriod);
+  robot.support_point = found.offset;
+  found.after = LeastInSixSteps(robot, missed, kSupportPeriod);
   return found;
 }
 

@@ -11,15 +11,17 @@ double LeastInSixSteps(const RobotModel& robot, MarginFamily family, double peri
 
 /// Where in the support sole CoM and ZMP shall rest on one foot, and what was missed elsewhere.
 struct FoundSupport {
-  double offset = 0.0;  ///< RobotModel::support_point [m]
-  double before = 0.0;  ///< the whole robot's ZMP inside the support polygon without it [m]
-  double after = 0.0;   ///< the same with it [m]
+  double offset = 0.0;                            ///< RobotModel::support_point [m]
+  MarginFamily missed = MarginFamily::kZmpRobot;  ///< kZmpRobot or kTorque
+  double before = 0.0;                            ///< its least margin without it [its unit]
+  double after = 0.0;                             ///< and with it
 };
 
-/// Where the whole robot's ZMP, in six steps, is not as far inside the support polygon as is
-/// demanded by default: the support point, in whole millimetres, with which both ZMPs, the
-/// robot's and the point mass's, have most left of what is demanded of each. Offset 0 where nothing is missed, where the
-/// robot's masses are not known, or where no other offset is better.
+/// Where the whole robot's ZMP is not as far inside the support polygon in six steps, or a joint's
+/// torque not as far inside its limit, as is demanded by default: the support point, in whole
+/// millimetres, with which these and the point mass's ZMP have most slack (MarginLimits::Slack).
+/// Offset 0 where nothing is missed, where the robot's masses are not known, or where no other
+/// offset is better.
 FoundSupport FindSupport(RobotModel robot);
 
 }  // namespace halfstep

@@ -89,7 +89,11 @@ class Optimization {
     SearchEnding first = end_;
     if (FindFirst(problem_, Range(0.0), kFirstPart * monitor_.effort(), monitor_, &first)) {
       monitor_.DropStart();
-      end_.kept = "the walk is the first that was found";
+      found_first_ = true;
+      first.cut = opt::Ending::kNotRun;
+      first.why_cut.clear();
+      first.exhausted = false;
+      end_ = first;
       return true;
     }
     if (first.called) {
@@ -180,6 +184,7 @@ class Optimization {
       for (JunctionResult& junction : monitor_.result().junctions) junction.limited_by.reset();
     }
     if (!Safest()) AddMultipliers();
+    end_.own = end_.own || found_first_;
     if (monitor_.stopped()) end_.NoteCut(monitor_);
     std::string message = end_.Sentence();
     if (Safest() && !std::isfinite(monitor_.cost())) {
@@ -203,6 +208,7 @@ class Optimization {
   }
 
   SmoothingResult CutOff() {
+    end_.own = found_first_;
     end_.NoteCut(monitor_);
     return monitor_.Finish(end_.Ending(), end_.Sentence());
   }
@@ -212,7 +218,8 @@ class Optimization {
   const std::shared_ptr<const opt::Solver> solver_;
   SmoothingMonitor& monitor_;
   SearchEnding end_;
-  std::string missed_;  // where FindFirst found none
+  bool found_first_ = false;  // by FindFirst
+  std::string missed_;        // where that found none
 };
 
 }  // namespace
