@@ -5,6 +5,7 @@
 
 #include "smoothing/margins/family_traits.h"
 #include "smoothing/methods/solver_method_options.h"
+#include "wpg/files/number_text.h"
 #include "wpg/files/text.h"
 
 namespace halfstep {
@@ -38,13 +39,15 @@ void DeclareGiven(Fields& fields, GivenWalkFiles* files) {
   }
 }
 
-// What the profile that the file names says otherwise than the one before becomes what it says; the
-// rest stays, scaled as it is.
+// What the profile that the file names says otherwise than the one before becomes what it says,
+// scaled to the robot as before; the rest stays.
 void TakeProfile(DemandProfile before, DemandProfile now, MarginLimits* limits) {
   const MarginLimits was = LimitsOf(before), is = LimitsOf(now);
   for (const MarginFamily family : AllMarginFamilies()) {
-    if (was.demanded_of(family) == is.demanded_of(family)) continue;
-    limits->demanded_of(family) = is.demanded_of(family);
+    const double from = was.demanded_of(family), to = is.demanded_of(family);
+    if (from == to) continue;
+    double& demanded = limits->demanded_of(family);
+    demanded = from > 0.0 && to > 0.0 ? Shortened(to * (demanded / from), 3) : to;
   }
   if (was.foot_speed != is.foot_speed) limits->foot_speed = is.foot_speed;
   if (was.foot_yaw_rate != is.foot_yaw_rate) limits->foot_yaw_rate = is.foot_yaw_rate;

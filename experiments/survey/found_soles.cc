@@ -21,7 +21,8 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kNearFloor = 1e-3;  // what is less above the lowest point touches [m]
+// What is less above the lowest point touches [m]: of flat parts, and of what is round or pointed.
+constexpr double kNearFloor = 1e-3, kOnFloor = 2e-4;
 // A sole's normal is the axis that is nearer than this, and triangles that face within this of each
 // other are one flat part [rad].
 constexpr double kFlat = 0.01, kOnePart = 0.02;
@@ -76,7 +77,7 @@ Vector3d LargestFace(const std::vector<const RobotBody*>& bodies, const Vector3d
 
 // Points of the bodies that touch a floor across `up`, in the axes of R (x, y).
 std::vector<Vector2d> Touching(const std::vector<const RobotBody*>& bodies, const Matrix3d& R,
-                               double* lowest) {
+                               double near, double* lowest) {
   const Vector3d up = R.col(2);
   *lowest = std::numeric_limits<double>::infinity();
   for (const RobotBody* body : bodies) *lowest = std::min(*lowest, -Support(body->shape, -up));
@@ -85,11 +86,11 @@ std::vector<Vector2d> Touching(const std::vector<const RobotBody*>& bodies, cons
     const double ball = body->shape.ball_radius, disc = body->shape.disc_radius;
     const double tilt = disc * up.head<2>().norm();
     for (const Vector3d& v : body->shape.vertices.colwise()) {
-      if (up.dot(v) - ball - tilt > *lowest + kNearFloor) continue;
+      if (up.dot(v) - ball - tilt > *lowest + near) continue;
       const Vector2d at(R.col(0).dot(v), R.col(1).dot(v));
       points.push_back(at);
       // Inside of a disc's edge.
-      for (int k = 0; disc > 0 && tilt < kNearFloor && k < 64; ++k) {
+      for (int k = 0; disc > 0 && tilt < near && k < 64; ++k) {
         const double angle = 2 * std::numbers::pi * k / 64;
         points.push_back(at + disc * Vector2d(Cos(angle), Sin(angle)));
       }
@@ -172,9 +173,10 @@ std::vector<Vector3d> PlanesBelow(const std::vector<const RobotBody*>& bodies,
   return normals;
 }
 
-// The rectangle on which a foot stands when a floor lies across `normal`, which points down.
+// The rectangle on which a foot stands when a floor lies across `normal`, which points down. What
+// is less than `near` above the floor touches.
 FoundSole SoleAcross(const Matrix3d& R_FB, const std::vector<const RobotBody*>& bodies,
-                     Vector3d normal) {
+                     Vector3d normal, double near) {
   const Vector3d down = R_FB * -Vector3d::UnitZ();
   FoundSole sole;
   sole.tilt = Acos(std::min(1.0, normal.dot(down)));
@@ -185,7 +187,7 @@ FoundSole SoleAcross(const Matrix3d& R_FB, const std::vector<const RobotBody*>& 
   R.col(0) = (forward - forward.dot(normal) * normal).normalized();
   R.col(1) = R.col(2).cross(R.col(0));
   double lowest = 0.0;
-  const Rectangle carries = LargestRectangle(Touching(bodies, R, &lowest));
+  const Rectangle carries = LargestRectangle(Touching(bodies, R, near, &lowest));
   sole.size = carries.size;
   sole.depth = -lowest;
   sole.X_FootSole.linear() = R;
@@ -198,7 +200,7 @@ FoundSole FindSole(const Leg& leg, const std::vector<const RobotBody*>& bodies) 
   const Vector3d down = R_FB * -Vector3d::UnitZ();
   FoundSole flat;
   if (const Vector3d normal = LargestFace(bodies, down); !normal.isZero()) {
-    flat = SoleAcross(R_FB, bodies, normal);
+    flat = SoleAcross(R_FB, bodies, normal, kNearFloor);
     flat.what =
         "the largest flat part of each foot's bodies and all that is less than 1 mm above its "
         "lowest point";
@@ -207,7 +209,7 @@ FoundSole FindSole(const Leg& leg, const std::vector<const RobotBody*>& bodies) 
   std::vector<Vector3d> normals = PlanesBelow(bodies, down);
   normals.insert(normals.begin(), down);
   for (const Vector3d& normal : normals) {
-    const FoundSole sole = SoleAcross(R_FB, bodies, normal);
+    const FoundSole sole = SoleAcross(R_FB, bodies, normal, kOnFloor);
     if (sole.size.minCoeff() >= kLeastSole && sole.size.prod() > best.size.prod()) best = sole;
   }
   best.what = "the plane below each foot's lowest balls, cylinders, edges and points";
@@ -226,8 +228,8 @@ FoundSole FindSole(const Leg& leg, const std::vector<const RobotBody*>& bodies) 
 FoundSole StatedSole(const Leg& leg, Side side, const std::vector<const RobotBody*>& bodies,
                      const StatedSoles& stated) {
   const Matrix3d R_FB = leg.joints[5].X_BLink.linear().transpose();
-  FoundSole sole =
-      bodies.empty() ? FoundSole{} : SoleAcross(R_FB, bodies, R_FB * -Vector3d::UnitZ());
+  FoundSole sole = bodies.empty() ? FoundSole{}
+                                  : SoleAcross(R_FB, bodies, R_FB * -Vector3d::UnitZ(), kNearFloor);
   if (bodies.empty()) sole.X_FootSole.linear() = R_FB;
   if (bodies.empty() || stated.centre) {
     const Vector2d ahead = stated.centre.value_or(Vector2d::Zero());

@@ -32,7 +32,8 @@ struct StatedSoles {
 /// Finds the sole of each foot, by Index(Side): the largest rectangle in all that is less than 1 mm
 /// above the foot's lowest point, seen along the direction in which the largest flat part of its
 /// bodies faces, within 60° of down; or, where nothing is flat, along that direction through three
-/// of its balls, edges or points which gives the largest rectangle. `legs` are at zero, in the
+/// of its balls, edges or points, and in what is less than 0.2 mm above these, which gives the
+/// largest rectangle. `legs` are at zero, in the
 /// waist frame; `bodies` are those of BuildBodies. Throws std::runtime_error with a sentence when a
 /// foot has no bodies or no such rectangle, unless it is `stated`.
 std::array<FoundSole, 2> FindSoles(const std::array<Leg, 2>& legs,

@@ -266,7 +266,19 @@ TEST(ExperimentConfig, AProfileIsWhatIsDemandedWhereNoKeySaysOtherwise) {
   EXPECT_EQ(limits("hrp2", {}).demanded, LimitsOf(DemandProfile::kWalkable).demanded);
   // A sole of 66 mm in place of 137 mm.
   EXPECT_EQ(limits("wren", {}).demanded_of(MarginFamily::kZmpRobot), 0.0132);
-  EXPECT_EQ(limits("wren", {{"smoothing.profile", "limit"}}).demanded, MarginLimits{}.demanded);
+  EXPECT_EQ(limits("hrp2", {{"smoothing.profile", "limit"}}).demanded, MarginLimits{}.demanded);
+  // A profile leaves what it is not about as it is scaled, and scales what it is about alike.
+  const MarginLimits wren = limits("wren", {}),
+                     limit = limits("wren", {{"smoothing.profile", "limit"}});
+  EXPECT_EQ(limit.demanded_of(MarginFamily::kFriction), 0.0);
+  EXPECT_EQ(limit.demanded_of(MarginFamily::kDoubleSupport), kNotDemanded);
+  EXPECT_EQ(limit.demanded_of(MarginFamily::kZmpRobot), 0.00482);
+  for (const MarginFamily family : {MarginFamily::kZmp, MarginFamily::kSelfClearance}) {
+    EXPECT_LT(limit.demanded_of(family), MarginLimits{}.demanded_of(family));
+    EXPECT_EQ(limit.demanded_of(family), wren.demanded_of(family));
+  }
+  EXPECT_EQ(limit.foot_speed, wren.foot_speed);
+  EXPECT_LT(*wren.foot_speed, 1.0);
   const MarginLimits paper = limits("hrp2", {{"smoothing.profile", "paper"},
                                              {"smoothing.margins.friction", "0.1"},
                                              {"smoothing.limits.foot_speed_m_s", "0.9"}});

@@ -203,11 +203,12 @@ TEST(RobotCommand, WritesTheDraftOfARobotThatItRefuses) {
       draft_of("<robot name='r'><link name='stone'/></robot>", "there are no two legs");
   EXPECT_THAT(no_legs, HasSubstr("# Waist and legs were not found."));
   // Feet without bodies.
-  const std::string no_soles = draft_of(
-      std::regex_replace(urdf, std::regex("<collision>[^\\n]*<box size='0.2 0.11 0.04'/>[^\\n]*"
-                                          "</collision>"),
-                         ""),
-      "foot has no collision bodies");
+  const std::string no_soles =
+      draft_of(std::regex_replace(urdf,
+                                  std::regex("<collision>[^\\n]*<box size='0.2 0.11 0.04'/>[^\\n]*"
+                                             "</collision>"),
+                                  ""),
+               "foot has no collision bodies");
   EXPECT_THAT(no_soles, HasSubstr("waist_link: 'waist'"));
   EXPECT_THAT(no_soles, HasSubstr("# The soles were not looked for."));
 }
@@ -235,7 +236,7 @@ TEST(ScaledDefaults, AreOfKeysThatThereAre) {
         }
       };
   count(formulas, values);
-  EXPECT_EQ(scaled, 31);
+  EXPECT_EQ(scaled, 35);
 }
 
 TEST(ScaledDefaults, GoByTheLegUnlessAKeySaysOtherwise) {

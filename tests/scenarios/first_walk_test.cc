@@ -33,7 +33,7 @@ class FirstWalkTest : public testing::Test {
       return weak;
     };
     const Experiment strong = with(kMuch / 10);
-    const MarginEvaluator evaluator(strong.robot, strong.scene, strong.config.smoothing.limits);
+    const MarginEvaluator evaluator(strong.robot, strong.scene, MarginLimits{});
     MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
     const SuperposedWalk walk(strong.sequence, PlannedMotion(strong.sequence));
     double taken = 0.0;
@@ -57,7 +57,7 @@ class FirstWalkTest : public testing::Test {
 
 TEST_F(FirstWalkTest, IsFoundWhereTheRobotCannotRestOnOneFoot) {
   const Experiment weak = WithHips(0.9);
-  const MarginEvaluator evaluator(weak.robot, weak.scene, weak.config.smoothing.limits);
+  const MarginEvaluator evaluator(weak.robot, weak.scene, MarginLimits{});
   const CertifiedFeasibility test(evaluator, {});
   const WalkProblem problem = ProblemOf(weak.sequence, test);
   const SmoothingResult dichotomy = Smoothed(Dichotomy, problem, {.tolerance = 0.01});
@@ -73,7 +73,7 @@ TEST_F(FirstWalkTest, IsFoundWhereTheRobotCannotRestOnOneFoot) {
 
 TEST_F(FirstWalkTest, IsNotClaimedWhereThereIsNone) {
   const Experiment weak = WithHips(0.05);
-  const MarginEvaluator evaluator(weak.robot, weak.scene, weak.config.smoothing.limits);
+  const MarginEvaluator evaluator(weak.robot, weak.scene, MarginLimits{});
   const CertifiedFeasibility test(evaluator, {});
   const SmoothingResult found =
       Smoothed(OptimizeOverlaps, ProblemOf(weak.sequence, test), Options(0.5));

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <numbers>
+#include <sstream>
 #include <string>
 
 #include "tests/replaced.h"
@@ -161,10 +162,10 @@ TEST(RobotAsBuilt, DifferencesOfLegsHaveASize) {
 
 // Such as Drake's note that a mesh is convex, beside the shape or before it.
 TEST(RobotAsBuilt, ElementsOfOtherProgramsAreNoShapes) {
-  const std::string urdf =
-      ReadYamlFile(std::filesystem::path(kHrp2).replace_extension("urdf").string());
+  std::stringstream urdf;
+  urdf << std::ifstream(std::filesystem::path(kHrp2).replace_extension("urdf")).rdbuf();
   const std::string path = testing::TempDir() + "halfstep_foreign.urdf";
-  std::ofstream(path) << Replaced(urdf, "<geometry>", "<geometry><drake:declare_convex/>");
+  std::ofstream(path) << Replaced(urdf.str(), "<geometry>", "<geometry><drake:declare_convex/>");
   const UrdfTree read = ReadUrdf(path), plain = Hrp2Tree();
   EXPECT_THAT(read.warnings, IsEmpty());
   ASSERT_EQ(read.links.size(), plain.links.size());
