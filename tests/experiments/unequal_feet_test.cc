@@ -119,10 +119,10 @@ TEST(SurveyedSoles, OfBallsOfLyingCylindersAndOfPoints) {
         SurveyRobot({.urdf = WriteText(place / "robot.urdf", WithFeet(urdf, shapes))});
     ASSERT_THAT(survey.refused, IsEmpty());
     const RobotModel model = ModelOf(survey.draft);
-    // A cylinder becomes a prism of 32 sides, which may stand on one of them.
-    const double facet = name == std::string("cylinders") ? 0.01 * 0.197 : 0.0;
     EXPECT_NEAR(model.sole_size.x(), 0.18, 2e-4);
-    EXPECT_NEAR(model.sole_size.y(), 0.09 + 0.5 * facet, 2e-4 + 0.5 * facet);
+    EXPECT_GE(model.sole_size.y(), 0.09 - 2e-4);
+    // What is round touches where it is less than 0.2 mm above the floor.
+    EXPECT_LE(model.sole_size.y(), 0.09 + 2e-4 + (name == std::string("cylinders") ? 4e-3 : 0.0));
     const Leg box = MakeLeg(robot, Side::kLeft);
     EXPECT_NEAR(model.legs[0].X_BSole.translation().x(), box.X_BSole.translation().x(), 1e-4);
     EXPECT_NEAR(model.legs[0].X_BSole.translation().y(), box.X_BSole.translation().y(), 1e-4);

@@ -156,7 +156,10 @@ TEST(RobotModel, TorqueLimitsAreTheEffortsOrTheRobotFiles) {
   EXPECT_EQ(model.legs[0].joints[0].max_torque, 12.5);
   EXPECT_TRUE(std::isinf(model.legs[0].joints[1].max_torque));
   EXPECT_EQ(model.legs[1].joints[0].max_torque, 100.0);
-  EXPECT_THAT(model.warnings, testing::IsEmpty());
+  EXPECT_THAT(model.warnings,
+              testing::ElementsAre(testing::HasSubstr(
+                  "the torque limit of right_joint0 by 87.5 N m, the torque limit of right_joint1, "
+                  "which is known of one side only; each leg is taken as it is")));
   const std::string silent =
       Replaced(GeneratedUrdf(robot), "' effort='100'/>", "' effort='0'/>");  // the first joint's
   const RobotModel unknown =
@@ -178,7 +181,8 @@ TEST(RobotModel, AccelerationLimitsAreTheRobotFiles) {
   EXPECT_EQ(model.legs[0].joints[0].max_acceleration, 12.5);
   EXPECT_TRUE(std::isinf(model.legs[0].joints[1].max_acceleration));
   EXPECT_TRUE(std::isinf(model.legs[1].joints[0].max_acceleration));
-  EXPECT_THAT(model.warnings, testing::IsEmpty());
+  EXPECT_THAT(model.warnings,
+              testing::ElementsAre(testing::HasSubstr("the acceleration limit of right_joint0")));
   EXPECT_FALSE(HasAccelerationLimits(
       TemporaryRobot("unlimited", urdf, yaml + key + "{left_joint0: none}\n").Load()));
 }

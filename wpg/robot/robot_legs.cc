@@ -265,16 +265,19 @@ std::vector<std::string> MirrorDifferences(const Leg& left, const Leg& right, do
     tell("the limits of " + r.name, range, Formatted("%.3g deg", range / kDegree));
     const double speed = std::abs(l.max_speed - r.max_speed);
     tell("the speed limit of " + r.name, speed, Formatted("%.3g rad/s", speed));
-    // Both may be unknown: infinite.
-    if (l.max_torque != r.max_torque) {
-      const double torque = std::abs(l.max_torque - r.max_torque);
-      tell("the torque limit of " + r.name, torque, Formatted("%.3g N m", torque));
-    }
-    if (l.max_acceleration != r.max_acceleration) {
-      const double acceleration = std::abs(l.max_acceleration - r.max_acceleration);
-      tell("the acceleration limit of " + r.name, acceleration,
-           Formatted("%.3g rad/s²", acceleration));
-    }
+    const auto tell_limit = [&](const char* what, double of_left, double of_right,
+                                const char* format) {
+      if (of_left == of_right) return;  // both may be unknown: infinite
+      const double apart = std::abs(of_left - of_right);
+      const std::string whose = std::string("the ") + what + " limit of " + r.name;
+      if (std::isfinite(apart)) {
+        tell(whose, apart, Formatted(format, apart));
+      } else {
+        differences.push_back(whose + ", which is known of one side only");
+      }
+    };
+    tell_limit("torque", l.max_torque, r.max_torque, "%.3g N m");
+    tell_limit("acceleration", l.max_acceleration, r.max_acceleration, "%.3g rad/s²");
   }
   return differences;
 }
