@@ -27,7 +27,7 @@ ExitStatus Verify(const verify::VerifyOptions& options, Telling telling) {
     for (const std::string& what : result.not_examined) {
       if (quiet) std::cerr << result.method << ": not examined: " << what << '\n';
     }
-    if (quiet && result.disagreements > 0) {
+    if (quiet && result.claimed && result.disagreements > 0) {
       std::cerr << result.method << ": NOT verified: " << result.reasons.front() << '\n';
     }
     if (quiet && result.disagreements == 0 && !result.too_coarse.empty()) {
@@ -51,9 +51,10 @@ ExitStatus Verify(const verify::VerifyOptions& options, Telling telling) {
 ExitStatus StatusOf(const std::vector<verify::MethodVerification>& results) {
   using Result = verify::MethodVerification;
   if (!std::ranges::all_of(results, &Result::readable)) return kBadInput;
-  const auto is_refused = [](const Result& one) { return one.disagreements > 0; };
+  const auto is_refused = [](const Result& one) { return one.claimed && one.disagreements > 0; };
   if (std::ranges::any_of(results, is_refused)) return kNotVerified;
-  return std::ranges::all_of(results, &Result::verified) ? kSuccess : kTooCoarse;
+  const auto is_settled = [](const Result& one) { return one.verified || !one.claimed; };
+  return std::ranges::all_of(results, is_settled) ? kSuccess : kTooCoarse;
 }
 
 CommandAction DeclareVerify(CLI::App* app, const Toolbox& tools) {

@@ -19,6 +19,7 @@ std::string VerificationJson(const std::vector<MethodVerification>& results) {
     of_episode = of_episode || result.of_episode;
     methods.push_back({{"method", result.method},
                        {"verified", result.verified},
+                       {"claimed", result.claimed},
                        {"readable", result.readable},
                        {"checks", result.lines},
                        {"too_coarse", result.too_coarse},

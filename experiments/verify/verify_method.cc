@@ -282,10 +282,12 @@ VerifiedStatement VerifyMethod(const VerifyOptions& options, const RunManifest& 
                   findings);
   const std::optional<DescribedWalk> walk =
       WalkOf(files, config, robot, manifest.MethodOf(folder), findings);
-  if (!CheckIsMotion(rows, findings) || !walk) return {certificate.statement, not_covered};
+  const VerifiedStatement verified{certificate.statement, not_covered,
+                                   certificate.verdict == "certified"};
+  if (!CheckIsMotion(rows, findings) || !walk) return verified;
   CheckMotion(options, config, {certificate, claimed, rows}, *walk, same_files ? &scene : nullptr,
               findings);
-  return {certificate.statement, not_covered};
+  return verified;
 }
 
 }  // namespace halfstep::verify

@@ -14,6 +14,7 @@ namespace halfstep::verify {
 struct VerifiedStatement {
   std::string statement;                ///< the certificate's own
   std::vector<NotCovered> not_covered;  ///< MethodVerification::not_covered
+  bool claimed = true;                  ///< whether the certificate's verdict is `certified`
 };
 
 /// Checks all that a run says of one method, whose folder is named `folder`. Throws InputError for

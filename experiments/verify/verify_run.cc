@@ -54,6 +54,14 @@ std::vector<fs::path> Folders(const VerifyOptions& options, const RunManifest& m
                     " (valid: " + names + ")"});
 }
 
+// Whether the run itself says of its plan, `raw`, that it is not feasible.
+bool IsInfeasiblePlan(const std::string& method, const RunManifest& manifest) {
+  return std::ranges::any_of(manifest.methods, [&](const RunManifest::Method& one) {
+    return method == "raw" && one.name == method && one.status == "failed" &&
+           one.verdict == "violated";
+  });
+}
+
 // Makes the result of a check, which may throw InputError.
 template <typename Check>
 MethodVerification Verified(const std::string& method, const Check& check) {
@@ -107,10 +115,14 @@ std::vector<MethodVerification> VerifyRun(const VerifyOptions& options) {
                 VerifyMethod(options, manifest, result->method, findings);
             result->statement = verified.statement;
             result->not_covered = verified.not_covered;
+            result->claimed = verified.claimed || !IsInfeasiblePlan(result->method, manifest);
           } else {
             findings->Disagree("there is no certificate (`halfstep certify` makes it)");
           }
         }));
+  }
+  if (std::ranges::none_of(results, &MethodVerification::verified)) {
+    for (MethodVerification& result : results) result.claimed = true;
   }
   return results;
 }
@@ -119,6 +131,7 @@ std::string Summary(const MethodVerification& result) {
   constexpr std::ptrdiff_t kMost = 3;
   std::string text = Formatted("%-22s ", result.method.c_str());
   if (!result.readable) return text + "cannot be read\n";
+  if (!result.claimed) return text + "not certified, as its certificate says\n";
   if (result.verified) {
     text += Formatted("verified (%zu checks)", result.lines.size());
     if (!result.remark.empty()) text += ", but " + result.remark;
@@ -154,7 +167,7 @@ std::string Describe(const MethodVerification& result) {
     text += "  too coarse to verify: " + result.too_coarse + "\n";
   }
   if (result.disagreements > 0) {
-    text += "  NOT verified:\n";
+    text += result.claimed ? "  NOT verified:\n" : "  not certified, as its certificate says:\n";
     for (const std::string& reason : result.reasons) text += "    " + reason + "\n";
     const long more = result.disagreements - std::ssize(result.reasons);
     if (more > 0) text += "    … and " + Count(more) + " more\n";

@@ -40,6 +40,9 @@ struct MethodVerification {
   std::vector<NotCovered> not_covered;  ///< what it does not speak of, as found here
   std::string remark;                   ///< what to say beside "verified"; "": nothing
   bool of_episode = false;              ///< which list of NotExamined is its own
+  /// False of a plan, `raw`, that manifest and certificate call infeasible, where another walk of
+  /// the run is verified: there is nothing to verify.
+  bool claimed = true;
 };
 
 /// Checks the certificates of a run against its other files, robot and scene: that they speak of
