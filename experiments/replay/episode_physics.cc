@@ -4,18 +4,20 @@
 #include <cmath>
 #include <utility>
 
-#include "experiments/control/state_estimate.h"
+#include "experiments/control/dcm_controller.h"
 #include "experiments/replay/planned_row.h"
 #include "experiments/replay/simulated_obstacles.h"
 #include "planner/scene/no_step_areas.h"
 #include "wpg/files/text.h"
 #include "wpg/nth.h"
-#include "wpg/robot/gravity.h"
 
 namespace halfstep::replay {
 namespace {
 
 const RobotModel& ModelOf(const EpisodeRobot& robot) { return robot.setup.robot.model; }
+
+// Of the DCM's error, as the controller dcm has it.
+constexpr double kFilter = control::DcmOptions{}.filter;  // [s]
 
 // The push that acts in the period that begins then.
 std::optional<Push> PushIn(const std::vector<Push>& pushes, double begin, double period) {
@@ -54,7 +56,8 @@ EpisodePhysics::EpisodePhysics(EpisodeRobot robot, const TrueWorld& truth,
     : robot_(std::move(robot)),
       truth_(truth.SeenFrom([](double) { return Pose2(); })),
       options_(robot_.setup.play),
-      contacts_(ModelOf(robot_)) {
+      contacts_(ModelOf(robot_)),
+      dcm_(ModelOf(robot_), robot_.setup.model.ankle, kFilter) {
   options_.row_period = options.period;
   options_.drift_window = options.horizon;
   // A period is a whole number of time steps.
@@ -120,23 +123,19 @@ void EpisodePhysics::Feel(const SuperposedWalk& walk) {
 // A ZMP in the middle of one sole brings the DCM back from within the sole; half of that is left
 // for where the planned ZMP is beside the middle.
 void EpisodePhysics::FeelPush(const control::MeasuredState& measured) {
-  constexpr double kFilter = 0.01;  // [s]
-  const RobotModel& model = ModelOf(robot_);
   const control::PlannedState then = plan_->At(measured.t);
-  const control::EstimatedState is = control::EstimateState(model, measured, then);
-  const double omega = std::sqrt(kGravity / model.com_height);
-  const Eigen::Vector3d off = is.com - then.com + (is.velocity - then.com_velocity) / omega;
-  const double period = options_.row_period;
-  dcm_off_ += period / (kFilter + period) * (off.head<2>() - dcm_off_);
-  const Eigen::Isometry3d X_BW = then.X_WB.inverse();
-  const Eigen::Vector3d off_B = X_BW.linear() * Eigen::Vector3d(dcm_off_.x(), dcm_off_.y(), 0.0);
-  const double share = (off_B.head<2>().cwiseAbs().cwiseQuotient(model.sole_size)).maxCoeff();
+  dcm_.Sense(measured, then, options_.row_period);
+  const Eigen::Vector2d& off = dcm_.value();
+  const Eigen::Vector3d off_B =
+      then.X_WB.linear().transpose() * Eigen::Vector3d(off.x(), off.y(), 0);
+  const Eigen::Vector2d& sole = ModelOf(robot_).sole_size;
+  const double share = (off_B.head<2>().cwiseAbs().cwiseQuotient(sole)).maxCoeff();
   const bool was_pushed = std::exchange(pushed_, share > (pushed_ ? 0.125 : 0.25));
   if (was_pushed || !pushed_) return;
   felt_.push_back({.what = "pushed",
                    .text = Formatted("the DCM is %.1f mm off its plan: no foot is lifted until it "
                                      "is back",
-                                     1e3 * dcm_off_.norm())});
+                                     1e3 * off.norm())});
 }
 
 std::string EpisodePhysics::Waits(Side support) const {

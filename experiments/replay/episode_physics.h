@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "experiments/control/contact_watch.h"
+#include "experiments/control/dcm_error.h"
 #include "experiments/live/episode.h"
 #include "experiments/live/true_world.h"
 #include "experiments/replay/replay_screen.h"
@@ -87,7 +88,7 @@ class EpisodePhysics {
   control::ContactWatch contacts_;
   std::vector<EpisodeEvent> felt_;
   std::shared_ptr<const PlannedStates> plan_;  // none without a controller
-  Eigen::Vector2d dcm_off_{0, 0};              // of the DCM, low-pass, in W [m]
+  control::DcmError dcm_;
   bool pushed_ = false;
   std::optional<TrueWorld> since_;  // by the time of the walk
   std::optional<Player> player_;
