@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "experiments/control/controller_lost.h"
 #include "experiments/control/dcm_controller.h"
 #include "experiments/replay/planned_row.h"
 #include "experiments/replay/simulated_obstacles.h"
@@ -82,10 +83,17 @@ void EpisodePhysics::Begin(const ReferenceMotion& motion, double waited) {
 }
 
 void EpisodePhysics::Play(const EpisodeTick& tick) {
-  if (fallen()) return;
-  const SuperposedWalk walk = tick.executor.executed();
-  if (!player_) Begin(MotionAbout(walk, tick.now), tick.record.waited);
-  PlayPeriod(walk, tick.now);
+  Advance(tick.executor.executed(), tick.now, tick.record.waited);
+}
+
+void EpisodePhysics::Advance(const SuperposedWalk& walk, double begin, double waited) {
+  if (fallen() || !lost_.empty()) return;
+  try {
+    if (!player_) Begin(MotionAbout(walk, begin), waited);
+    PlayPeriod(walk, begin);
+  } catch (const control::ControllerLost& lost) {
+    lost_ = lost.what();
+  }
 }
 
 void EpisodePhysics::PlayPeriod(const SuperposedWalk& walk, double begin) {
@@ -180,11 +188,13 @@ PhysicalOutcome EpisodePhysics::Finish(const Episode& episode) {
   for (const SimulatedObstacle& obstacle : all.obstacles) {
     outcome.replayed.obstacles.push_back(obstacle.name);
   }
-  if (!player_) return outcome;
+  outcome.lost = lost_;
+  if (rows_.empty()) return outcome;
   const SuperposedWalk walk = episode.Executed();
   const bool rests = walk.duration() <= episode.end;
   const long periods = std::lround(options_.hold / options_.row_period);
-  for (long i = 0; rests && i < periods && !fallen(); ++i) PlayPeriod(walk, player_->time());
+  for (long i = 0; rests && i < periods; ++i) Advance(walk, player_->time(), episode.waited);
+  outcome.lost = lost_;
   const GoalRegion goal = since_->GoalAt(episode.end);
   std::array<Foothold, 2> feet;
   for (const Side side : {Side::kLeft, Side::kRight}) {
@@ -192,7 +202,7 @@ PhysicalOutcome EpisodePhysics::Finish(const Episode& episode) {
     Nth(feet, Index(side)) = {OnFloor(X_WSole), X_WSole.translation().z()};
   }
   outcome.no_step = no_step_;
-  outcome.in_goal = rests && !fallen() && goal.ContainsStance(feet);
+  outcome.in_goal = rests && !fallen() && lost_.empty() && goal.ContainsStance(feet);
   const Eigen::Vector2d seen = worlds_.back() * goal.X_WG.position();
   outcome.goal_off = (seen - episode.worlds.back().goal.X_WG.position()).norm();
   const ReferenceMotion motion = Executed(walk, std::min(walk.duration(), episode.end));
