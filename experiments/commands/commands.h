@@ -36,7 +36,12 @@ struct LiveCommand {
   bool in_physics = false;  ///< a simulated robot executes the walk, and is what is measured from
   replay::SimulatedRobot simulated;  ///< that robot; its controllers count
   std::vector<replay::Push> pushes;  ///< of its waist, in times of the walk
+  /// Of a client that controls the robot (kClientController): how long is waited for an answer [s];
+  /// none: as long as it takes.
+  std::optional<double> answer_within = {};
 };
+/// Controller of a simulated robot: a client of the socket.
+inline constexpr char kClientController[] = "client";
 
 /// `halfstep live`: an episode of walking while the world changes, by a config with `live`, into a
 /// folder; with clients it goes on until one asks for its end. kFailed when the robot does not

@@ -1,11 +1,11 @@
 #include <algorithm>
-#include <cmath>
 #include <iostream>
 #include <memory>
 #include <optional>
 
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
+#include "experiments/commands/push_option.h"
 #include "experiments/commands/simulated_robot_options.h"
 #include "experiments/live/episode.h"
 #include "experiments/live/episode_files.h"
@@ -22,32 +22,55 @@
 #include "experiments/server/served_episode.h"
 #include "smoothing/margins/not_covered_by.h"
 #include "wpg/files/input_error.h"
-#include "wpg/files/number_text.h"
-#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {
 
 bool IsServed(const LiveCommand& command) { return command.view || command.socket; }
+// Whether a client controls the robot.
+bool IsClientControlled(const LiveCommand& command) {
+  return command.simulated.controller == kClientController;
+}
+
+// Throws InputError for a client that controls without a socket, or a socket in physics without
+// one.
+void CheckClientControl(const LiveCommand& command) {
+  if (IsClientControlled(command) && !(command.in_physics && command.socket)) {
+    throw InputError(
+        {"--controller client: no client can come (valid: with --in-physics and --serve)"});
+  }
+  if (IsClientControlled(command)) return;
+  if (command.in_physics && command.socket) {
+    throw InputError(
+        {"--serve: in physics a client controls the robot (valid: with --controller "
+         "client)"});
+  }
+  if (command.answer_within) {
+    throw InputError({"--answer-within: no client is asked (valid: with --controller client)"});
+  }
+}
 
 // The config as the episode goes on. Throws InputError for what this build or command cannot do.
 LiveConfig Adapted(const LiveCommand& command, const LiveConfig& config) {
   if (const std::string why = replay::WhyNoSimulation(); command.in_physics && !why.empty()) {
     throw InputError({"--in-physics: " + why});
   }
+  CheckClientControl(command);
   if (IsServed(command)) {
     if (!WhyNoServer().empty()) throw InputError({"--view, --serve: " + WhyNoServer()});
     if (command.view && !HasReport()) {
       throw InputError({"--view: this build has no page, as it has no report (valid: --serve)"});
     }
-    return ServedEpisode::Served(config);
+    if (!command.in_physics) return ServedEpisode::Served(config);
   }
   if (config.live.sensing.source == "client") {
-    throw InputError({command.run.config +
-                      ": live.sensing.source: client, but no client can come (valid: with --serve "
-                      "or --view, or stand_in)"});
+    throw InputError({command.run.config + ": live.sensing.source: client, but " +
+                      (IsServed(command) ? "the world of a simulated robot is measured from it "
+                                           "(valid: stand_in)"
+                                         : "no client can come (valid: with --serve or --view, or "
+                                           "stand_in)")});
   }
-  return config;
+  return IsServed(command) ? ServedEpisode::Controlled(config) : config;
 }
 
 // Tells where clients find the episode, at once.
@@ -55,26 +78,36 @@ void PrintPlaces(const LiveCommand& command, const ServedEpisode& served) {
   std::ostream& screen = command.run.json || command.run.quiet ? std::cerr : std::cout;
   if (command.view) screen << "view         " << served.address() << '\n';
   if (command.socket) screen << "socket       " << *command.socket << '\n';
-  screen << "clock        wall, as clients need it\n" << std::flush;
+  screen << (command.in_physics ? "clock        lockstep; the robot waits for the client that "
+                                  "controls it\n"
+                                : "clock        wall, as clients need it\n")
+         << std::flush;
 }
 
 std::unique_ptr<ServedEpisode> Serve(const LiveCommand& command, const LiveConfig& config,
-                                     const Place& place, const TrueWorld& truth) {
+                                     const Place& place, const TrueWorld& truth,
+                                     const std::stop_token& stop) {
   if (!IsServed(command)) return nullptr;
-  auto served = std::make_unique<ServedEpisode>(
-      config, place, truth,
-      ServerOptions{.view = command.view,
-                    .port = command.port,
-                    .page = [](const std::string& socket) { return LivePage(socket); },
-                    .socket_path = command.socket.value_or("")});
-  PrintPlaces(command, *served);
-  return served;
+  const ServerOptions options{.view = command.view,
+                              .port = command.port,
+                              .page = [](const std::string& socket) { return LivePage(socket); },
+                              .socket_path = command.socket.value_or("")};
+  return command.in_physics
+             ? std::make_unique<ServedEpisode>(
+                   config, place, options,
+                   ClientControl::Options{.patience = command.answer_within, .stop = stop})
+             : std::make_unique<ServedEpisode>(config, place, truth, options);
 }
 
 // The robot that executes the walk in physics.
-replay::EpisodeRobot RobotOf(const LiveCommand& command, const LiveConfig& config) {
+replay::EpisodeRobot RobotOf(const LiveCommand& command, const LiveConfig& config,
+                             ServedEpisode* served) {
+  replay::SimulatedRobot simulated = command.simulated;
+  if (served != nullptr) {
+    simulated.controllers.Add(kClientController, MakeClientControllers(&served->control()));
+  }
   replay::EpisodeRobot robot{
-      .setup = command.simulated.SetupOf(LoadWholeRobot(RobotPath(config.experiment).string()), {}),
+      .setup = simulated.SetupOf(LoadWholeRobot(RobotPath(config.experiment).string()), {}),
       .controller = command.simulated.controller,
       .pushes = command.pushes};
   if (robot.setup.relief.plates > 0.0) {
@@ -93,17 +126,15 @@ Episode Walk(const LiveConfig& config, const Replanner& replanner, const Place& 
       StartOf(config.experiment, place.robot, *place.scene.ground);
   if (served == nullptr) return run(replanner, sensor, start, hooks);
   const std::stop_callback end(hooks.stop, [served] { served->Stop(); });
-  return run(replanner, &served->sensor(), start,
-             {.on_tick =
-                  [&](const EpisodeTick& tick) {
-                    hooks.on_tick(tick);
-                    served->Tick(tick);
-                  },
-              .on_wait = [served](const std::string& reason) { served->Wait(reason); },
-              .held = [served] { return served->held(); },
-              .fallen = {},
-              .stop = hooks.stop,
-              .ended = served->stop_token()});
+  EpisodeHooks all = hooks;
+  all.on_tick = [&](const EpisodeTick& tick) {
+    hooks.on_tick(tick);
+    served->Tick(tick);
+  };
+  all.on_wait = [served](const std::string& reason) { served->Wait(reason); };
+  all.held = [served] { return served->held(); };
+  all.ended = served->stop_token();
+  return run(replanner, served->sensor() != nullptr ? served->sensor() : sensor, start, all);
 }
 
 // Lets a simulated robot say what it feels, and whether it fell.
@@ -111,6 +142,7 @@ void AddPhysics(replay::EpisodePhysics* simulated, EpisodeHooks* hooks) {
   hooks->waits = [simulated](Side support) { return simulated->Waits(support); };
   hooks->felt = [simulated] { return simulated->TakeFelt(); };
   hooks->fallen = [simulated] { return simulated->fallen(); };
+  hooks->lost = [simulated] { return simulated->lost(); };
 }
 
 // What truly happened, in times of the walk, by the script and by what clients did; none when only
@@ -125,7 +157,7 @@ std::optional<TrueWorld> WhatWasTrue(const LiveConfig& config, const Place& plac
 // Whether the robot arrived, or was told to end, and touched nothing while it moved.
 bool WentWell(const Episode& episode, const std::optional<replay::PhysicalOutcome>& outcome) {
   if (episode.promise.status() == PromiseStatus::kTouched) return false;
-  if (outcome && (!outcome->replayed.result.stayed_up ||
+  if (outcome && (!outcome->lost.empty() || !outcome->replayed.result.stayed_up ||
                   std::ranges::count(outcome->replayed.result.touches, false,
                                      &replay::TouchRecord::at_rest) > 0)) {
     return false;
@@ -156,42 +188,6 @@ std::shared_ptr<const BakedHalfSteps> Baked(const LiveConfig& config, const Plac
       {.progress = [&bar](const std::string&, double done) { bar.Update(done); }, .stop = stop}));
 }
 
-// "T,FX,FY,SECONDS" of --push.
-replay::Push PushOf(const std::string& text) {
-  std::vector<double> numbers;
-  for (size_t begin = 0; begin <= text.size();) {
-    const size_t end = std::min(text.find(',', begin), text.size());
-    const NumberText number = ParseNumber(text.substr(begin, end - begin));
-    const bool good = number.kind == NumberText::Kind::kNumber && std::abs(number.value) <= 1e4;
-    numbers.push_back(good ? number.value : std::nan(""));
-    begin = end + 1;
-  }
-  const bool good = numbers.size() == 4 && numbers[0] >= 0.0 && numbers[3] > 0.0 &&
-                    numbers[3] <= 10.0 && std::isfinite(numbers[1]) && std::isfinite(numbers[2]);
-  if (!good) {
-    throw InputError({"--push " + Quote(text) +
-                      ": is no push (valid: T,FX,FY,SECONDS with T in s from 0, forces in N up to "
-                      "10000, and up to 10 s)"});
-  }
-  return {.at = numbers[0],
-          .duration = numbers[3],
-          .impulse_W = numbers[3] * Eigen::Vector3d(numbers[1], numbers[2], 0.0)};
-}
-
-std::vector<replay::Push> PushesOf(const std::vector<std::string>& texts) {
-  std::vector<replay::Push> pushes;
-  for (const std::string& text : texts) {
-    pushes.push_back(PushOf(text));
-    if (pushes.size() == 1) continue;
-    const replay::Push& before = pushes[pushes.size() - 2];
-    if (pushes.back().at >= before.at + before.duration) continue;
-    throw InputError({"--push " + Quote(text) +
-                      ": begins before the one before it ends (valid: one "
-                      "after the other)"});
-  }
-  return pushes;
-}
-
 }  // namespace
 
 ExitStatus Live(const LiveCommand& command) {
@@ -203,10 +199,14 @@ ExitStatus Live(const LiveCommand& command) {
   const Place& place = loaded.place;
   TellWarnings(place.robot, place.scene);
   const TrueWorld truth(place.scene, config.experiment.goal, config.live);
+  const std::unique_ptr<ServedEpisode> served =
+      Serve(command, config, place, truth, interrupt.token());
   // What the options of the simulated robot say is refused before anything is computed.
   std::optional<replay::EpisodePhysics> simulated;
-  if (command.in_physics) simulated.emplace(RobotOf(command, config), truth, config.live);
-  const std::unique_ptr<ServedEpisode> served = Serve(command, config, place, truth);
+  if (command.in_physics) {
+    simulated.emplace(RobotOf(command, config, served.get()), truth, config.live);
+  }
+  if (served) PrintPlaces(command, *served);
   const bool silent = command.run.quiet || command.run.json;
   const std::shared_ptr<const BakedHalfSteps> baked =
       Baked(config, place, silent, interrupt.token());
@@ -234,7 +234,7 @@ ExitStatus Live(const LiveCommand& command) {
   Episode episode = Walk(config, replanner, place, &sensor, served.get(), hooks);
   bar.reset();
   if (!journal.failure().empty()) std::cerr << "halfstep: warning: " << journal.failure() << '\n';
-  if (served) config.live.script = served->Script();
+  if (served && served->sensor() != nullptr) config.live.script = served->Script();
   const std::optional<TrueWorld> was_true =
       WhatWasTrue(config, place, simulated ? &*simulated : nullptr, episode.waited);
   episode.promise = JudgePromise(episode, was_true ? &*was_true : nullptr, place, config.live);
@@ -273,8 +273,7 @@ CommandAction DeclareLive(CLI::App* app, const Toolbox& tools) {
   CLI::Option* const in_physics =
       app->add_flag("--in-physics", command->in_physics,
                     "a robot simulated by MuJoCo executes the walk; the world is measured from it")
-          ->excludes(view)
-          ->excludes(serve);
+          ->excludes(view);
   const SimulatedRobotOptions robot = DeclareSimulatedRobot(app, &command->simulated);
   for (CLI::Option* option : robot.all) option->needs(in_physics);
   const auto pushes = std::make_shared<std::vector<std::string>>();
@@ -284,6 +283,11 @@ CommandAction DeclareLive(CLI::App* app, const Toolbox& tools) {
          "be given again")
       ->take_all()
       ->needs(in_physics);
+  app->add_option("--answer-within", command->answer_within,
+                  "ends the episode when a client that controls does not answer for so long [s] "
+                  "(default: waits)")
+      ->check(CLI::Range(0.001, 86400.0))
+      ->needs(serve);
   DeclareRunFlags(app, &command->run);
   return [command, sets, robot, pushes] {
     robot.finish();

@@ -49,8 +49,8 @@ SimulatedRobotOptions DeclareSimulatedRobot(CLI::App* app, replay::SimulatedRobo
                       "with commas"),
       app->add_option(
           "--controller", robot->controller,
-          "what moves the robot: none (servos get the plan itself), dcm; tells tracking "
-          "errors"),
+          "what moves the robot: none (servos get the plan itself), dcm, in episodes client "
+          "(with --serve); tells tracking errors"),
       app->add_option("--sensor-delay", robot->sensor_delay,
                       "what is measured arrives so late [s] (default: 0.005)"),
       app->add_option("--sensor-seed", robot->sensor_seed,

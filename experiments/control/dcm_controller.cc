@@ -62,11 +62,11 @@ Vector2d MomentOf(const SoleLoad& load) { return load.force * load.centre; }
 DcmController::DcmController(const RobotModel& robot, const DcmOptions& options)
     : robot_(robot),
       options_(options),
-      omega_(std::sqrt(kGravity / robot.com_height)),
       leg_stiffness_(ServoStiffness(robot, options)),
       foot_stiffness_(FootStiffness(robot, options)),
-      bushes_{AnkleBush(robot.legs[0], options.ankle), AnkleBush(robot.legs[1], options.ankle)},
-      planned_bushes_(bushes_),
+      dcm_(robot, options.ankle, options.filter),
+      planned_bushes_{AnkleBush(robot.legs[0], options.ankle),
+                      AnkleBush(robot.legs[1], options.ankle)},
       errors_(options.stiffen * StiffFoot(robot) / options.stiffness - 1.0, options.servo_time) {}
 
 std::unique_ptr<TrackingController> DcmController::Clone() const {
@@ -106,11 +106,6 @@ void DcmController::MeetFloor(const MeasuredState& measured, const PlannedState&
   }
 }
 
-void DcmController::SenseError(const EstimatedState& state, const PlannedState& then) {
-  const Vector3d off = state.com - then.com + (state.velocity - then.com_velocity) / omega_;
-  Approach<Vector2d>(off.head<2>(), options_.filter, &error_);
-}
-
 void DcmController::TurnSoles(const MeasuredState& measured, const PlannedState& then,
                               const std::array<SoleLoad, 2>& wanted,
                               const std::array<SoleLoad, 2>& planned) {
@@ -136,19 +131,6 @@ void DcmController::TurnSoles(const MeasuredState& measured, const PlannedState&
       (wanted[0].force - wanted[1].force) - (measured.loads[0].force - measured.loads[1].force);
   difference_ += kPeriod * (missing * lever * lever / (leg_stiffness_ * options_.force_time) -
                             difference_ / options_.leak);
-}
-
-void DcmController::SenseBushes(const MeasuredState& measured, const PlannedState& then) {
-  const std::array<SoleLoad, 2> planned = SharedLoads(then, robot_.sole_size, then.zmp);
-  for (size_t s = 0; s < 2; ++s) {
-    const Vector2d ankle = bushes_[s].ankle().head<2>();
-    const auto moment = [&ankle](const SoleLoad& load) -> Vector2d {
-      const Vector2d arm = load.centre - ankle;
-      return load.force * Vector2d(arm.y(), -arm.x());
-    };
-    const Vector3d then_S = then.X_WSole[s].linear().transpose() * then.ankle_moments[s];
-    bushes_[s].Yield(then_S.head<2>() + moment(measured.loads[s]) - moment(planned[s]), kPeriod);
-  }
 }
 
 void DcmController::HoldFeet(const EstimatedState& state, const PlannedState& then,
@@ -196,8 +178,8 @@ std::array<Vector6d, 2> DcmController::Bent(const PlannedState& next) const {
     X_WSole.translation() += foot.shift;
     X_WSole.translation().z() += foot.floor + (s == 0 ? -0.5 : 0.5) * difference_;
     X_WSole.linear() = Turned(foot.turn) * X_WSole.linear();
-    X_WSole =
-        X_WSole * TurnedAbout(bushes_[s].ankle(), tilt) * planned_bushes_[s].X_RestSole().inverse();
+    X_WSole = X_WSole * TurnedAbout(planned_bushes_[s].ankle(), tilt) *
+              planned_bushes_[s].X_RestSole().inverse();
     const Leg& leg = robot_.legs[s];
     const LegIkSolution plain = SolveLegIk(leg, next.X_WB.inverse() * next.X_WSole[s]);
     const LegIkSolution moved = SolveLegIk(leg, X_WB.inverse() * X_WSole);
@@ -211,14 +193,12 @@ JointCommand DcmController::Command(const MeasuredState& measured, const Planned
                                     const PlannedState& next) {
   PlannedState then = planned;
   MeetFloor(measured, next, &then);
-  SenseBushes(measured, then);
-  const EstimatedState state = EstimateState(robot_, measured, then, bushes_);
-  SenseError(state, then);
+  const EstimatedState state = dcm_.Sense(measured, then, kPeriod);
   const auto nearest = [&](const Vector2d& p) {
     return NearestInSupport(then, robot_.sole_size, options_.inset, p);
   };
   const Vector2d without = nearest(then.zmp);
-  const Vector2d zmp = nearest(then.zmp + (1.0 + options_.gain) * error_);
+  const Vector2d zmp = nearest(then.zmp + (1.0 + options_.gain) * dcm_.value());
   TurnSoles(measured, then, SharedLoads(then, robot_.sole_size, zmp),
             SharedLoads(then, robot_.sole_size, without));
   HoldFeet(state, then, next);

@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 #include <limits>
 
+#include "experiments/control/dcm_error.h"
 #include "experiments/control/joint_errors.h"
-#include "experiments/control/state_estimate.h"
 #include "experiments/control/tracking_controller.h"
 
 namespace halfstep::control {
@@ -73,10 +73,8 @@ class DcmController final : public TrackingController {
   // A foot that meets the floor above its plan goes no deeper; one that misses it goes down until
   // it meets it, and as long as it does, it is not on the floor: changes `then`.
   void MeetFloor(const MeasuredState& measured, const PlannedState& next, PlannedState* then);
-  void SenseError(const EstimatedState& state, const PlannedState& then);
   void TurnSoles(const MeasuredState& measured, const PlannedState& then,
                  const std::array<SoleLoad, 2>& wanted, const std::array<SoleLoad, 2>& planned);
-  void SenseBushes(const MeasuredState& measured, const PlannedState& then);
   void HoldFeet(const EstimatedState& state, const PlannedState& then, const PlannedState& next);
   void ShiftWaist(const MeasuredState& measured, const PlannedState& then,
                   const Eigen::Vector2d& zmp);
@@ -86,15 +84,14 @@ class DcmController final : public TrackingController {
 
   const RobotModel& robot_;
   DcmOptions options_;
-  double omega_;           // [1/s]
   double leg_stiffness_;   // of its servos [N m/rad]
   double foot_stiffness_;  // moment of a sole on the floor for each radian [N m/rad]
   bool begun_ = false;
-  Eigen::Vector2d error_{0, 0};  // of the DCM [m]
   Eigen::Vector2d shift_{0, 0};  // of the waist [m]
   double difference_ = 0.0;      // of the legs' lengths, left less right [m]
   std::array<FootOffset, 2> feet_;
-  std::array<AnkleBush, 2> bushes_, planned_bushes_;  // by what was measured, by the plan
+  DcmError dcm_;
+  std::array<AnkleBush, 2> planned_bushes_;  // by the plan
   JointErrors errors_;
   std::array<Vector6d, 2> sag_{Vector6d::Zero(), Vector6d::Zero()};  // of the servos, planned [rad]
   std::array<Vector6d, 2> bent_{Vector6d::Zero(), Vector6d::Zero()};   // Bent(), of the last time

@@ -21,6 +21,8 @@ std::string_view Name(EpisodeEnding ending) {
       return "interrupted";
     case EpisodeEnding::kFell:
       return "fell";
+    case EpisodeEnding::kUncontrolled:
+      return "uncontrolled";
     case EpisodeEnding::kKilled:
       return "killed";
   }

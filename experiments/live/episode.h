@@ -52,20 +52,21 @@ struct BegunHalfStep {
 
 /// How an episode ended.
 enum class EpisodeEnding {
-  kArrived,      ///< at rest in the goal, and nothing happens any more
-  kStuck,        ///< at rest elsewhere when the time was up
-  kTooLong,      ///< walking when the time was up
-  kNoPlan,       ///< there was no walk to begin with
-  kEnded,        ///< a client ended it
-  kInterrupted,  ///< stopped from outside
-  kFell,         ///< the simulated robot fell
-  kKilled,       ///< its process was killed: what is recorded was recovered
+  kArrived,       ///< at rest in the goal, and nothing happens any more
+  kStuck,         ///< at rest elsewhere when the time was up
+  kTooLong,       ///< walking when the time was up
+  kNoPlan,        ///< there was no walk to begin with
+  kEnded,         ///< a client ended it
+  kInterrupted,   ///< stopped from outside
+  kFell,          ///< the simulated robot fell
+  kUncontrolled,  ///< there were no more commands for the simulated robot
+  kKilled,        ///< its process was killed: what is recorded was recovered
 };
 /// All of them.
-inline constexpr std::array kEpisodeEndings = {EpisodeEnding::kArrived, EpisodeEnding::kStuck,
-                                               EpisodeEnding::kTooLong, EpisodeEnding::kNoPlan,
-                                               EpisodeEnding::kEnded,   EpisodeEnding::kInterrupted,
-                                               EpisodeEnding::kFell,    EpisodeEnding::kKilled};
+inline constexpr std::array kEpisodeEndings = {
+    EpisodeEnding::kArrived, EpisodeEnding::kStuck,        EpisodeEnding::kTooLong,
+    EpisodeEnding::kNoPlan,  EpisodeEnding::kEnded,        EpisodeEnding::kInterrupted,
+    EpisodeEnding::kFell,    EpisodeEnding::kUncontrolled, EpisodeEnding::kKilled};
 /// As events.csv and manifests call it: "arrived".
 std::string_view Name(EpisodeEnding ending);
 
@@ -111,6 +112,9 @@ struct EpisodeHooks {
   std::function<std::vector<EpisodeEvent>()> felt = {};
   /// Whether the robot that executes the walk has fallen; then the episode ends.
   std::function<bool()> fallen = {};
+  /// Why there are no more commands for the robot that executes the walk; then the episode ends.
+  /// "": there are.
+  std::function<std::string()> lost = {};
   std::stop_token stop = {};   ///< the robot comes to rest, then the episode ends, interrupted
   std::stop_token ended = {};  ///< the same, but that is how it was meant to end
 };

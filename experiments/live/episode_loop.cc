@@ -269,11 +269,14 @@ bool EpisodeLoop::Ends(double now) {
   const bool arrived =
       at_rest && on_both && now > sensor_.QuietFrom() && world_->goal.ContainsStance(stance);
   const bool fell = hooks_.fallen && hooks_.fallen();
-  if (!arrived && !over && !ended && !fell) return false;
+  const std::string lost = hooks_.lost ? hooks_.lost() : "";
+  if (!arrived && !over && !ended && !fell && lost.empty()) return false;
+  if (!lost.empty()) record_.message = lost;
   if (fell) record_.message = Formatted("the robot fell at %.3f s", now);
-  record_.ending = fell      ? EpisodeEnding::kFell
-                   : arrived ? EpisodeEnding::kArrived
-                   : !ended  ? (at_rest ? EpisodeEnding::kStuck : EpisodeEnding::kTooLong)
+  record_.ending = fell            ? EpisodeEnding::kFell
+                   : !lost.empty() ? EpisodeEnding::kUncontrolled
+                   : arrived       ? EpisodeEnding::kArrived
+                   : !ended        ? (at_rest ? EpisodeEnding::kStuck : EpisodeEnding::kTooLong)
                    : hooks_.stop.stop_requested() ? EpisodeEnding::kInterrupted
                                                   : EpisodeEnding::kEnded;
   if (record_.ending == EpisodeEnding::kEnded) {

@@ -4,18 +4,21 @@
 #include <cmath>
 #include <utility>
 
-#include "experiments/control/state_estimate.h"
+#include "experiments/control/controller_lost.h"
+#include "experiments/control/dcm_controller.h"
 #include "experiments/replay/planned_row.h"
 #include "experiments/replay/simulated_obstacles.h"
 #include "planner/scene/no_step_areas.h"
 #include "wpg/files/text.h"
 #include "wpg/nth.h"
-#include "wpg/robot/gravity.h"
 
 namespace halfstep::replay {
 namespace {
 
 const RobotModel& ModelOf(const EpisodeRobot& robot) { return robot.setup.robot.model; }
+
+// Of the DCM's error, as the controller dcm has it.
+constexpr double kFilter = control::DcmOptions{}.filter;  // [s]
 
 // The push that acts in the period that begins then.
 std::optional<Push> PushIn(const std::vector<Push>& pushes, double begin, double period) {
@@ -54,7 +57,8 @@ EpisodePhysics::EpisodePhysics(EpisodeRobot robot, const TrueWorld& truth,
     : robot_(std::move(robot)),
       truth_(truth.SeenFrom([](double) { return Pose2(); })),
       options_(robot_.setup.play),
-      contacts_(ModelOf(robot_)) {
+      contacts_(ModelOf(robot_)),
+      dcm_(ModelOf(robot_), robot_.setup.model.ankle, kFilter) {
   options_.row_period = options.period;
   options_.drift_window = options.horizon;
   // A period is a whole number of time steps.
@@ -79,10 +83,17 @@ void EpisodePhysics::Begin(const ReferenceMotion& motion, double waited) {
 }
 
 void EpisodePhysics::Play(const EpisodeTick& tick) {
-  if (fallen()) return;
-  const SuperposedWalk walk = tick.executor.executed();
-  if (!player_) Begin(MotionAbout(walk, tick.now), tick.record.waited);
-  PlayPeriod(walk, tick.now);
+  Advance(tick.executor.executed(), tick.now, tick.record.waited);
+}
+
+void EpisodePhysics::Advance(const SuperposedWalk& walk, double begin, double waited) {
+  if (fallen() || !lost_.empty()) return;
+  try {
+    if (!player_) Begin(MotionAbout(walk, begin), waited);
+    PlayPeriod(walk, begin);
+  } catch (const control::ControllerLost& lost) {
+    lost_ = lost.what();
+  }
 }
 
 void EpisodePhysics::PlayPeriod(const SuperposedWalk& walk, double begin) {
@@ -120,23 +131,19 @@ void EpisodePhysics::Feel(const SuperposedWalk& walk) {
 // A ZMP in the middle of one sole brings the DCM back from within the sole; half of that is left
 // for where the planned ZMP is beside the middle.
 void EpisodePhysics::FeelPush(const control::MeasuredState& measured) {
-  constexpr double kFilter = 0.01;  // [s]
-  const RobotModel& model = ModelOf(robot_);
   const control::PlannedState then = plan_->At(measured.t);
-  const control::EstimatedState is = control::EstimateState(model, measured, then);
-  const double omega = std::sqrt(kGravity / model.com_height);
-  const Eigen::Vector3d off = is.com - then.com + (is.velocity - then.com_velocity) / omega;
-  const double period = options_.row_period;
-  dcm_off_ += period / (kFilter + period) * (off.head<2>() - dcm_off_);
-  const Eigen::Isometry3d X_BW = then.X_WB.inverse();
-  const Eigen::Vector3d off_B = X_BW.linear() * Eigen::Vector3d(dcm_off_.x(), dcm_off_.y(), 0.0);
-  const double share = (off_B.head<2>().cwiseAbs().cwiseQuotient(model.sole_size)).maxCoeff();
+  dcm_.Sense(measured, then, options_.row_period);
+  const Eigen::Vector2d& off = dcm_.value();
+  const Eigen::Vector3d off_B =
+      then.X_WB.linear().transpose() * Eigen::Vector3d(off.x(), off.y(), 0);
+  const Eigen::Vector2d& sole = ModelOf(robot_).sole_size;
+  const double share = (off_B.head<2>().cwiseAbs().cwiseQuotient(sole)).maxCoeff();
   const bool was_pushed = std::exchange(pushed_, share > (pushed_ ? 0.125 : 0.25));
   if (was_pushed || !pushed_) return;
   felt_.push_back({.what = "pushed",
                    .text = Formatted("the DCM is %.1f mm off its plan: no foot is lifted until it "
                                      "is back",
-                                     1e3 * dcm_off_.norm())});
+                                     1e3 * off.norm())});
 }
 
 std::string EpisodePhysics::Waits(Side support) const {
@@ -181,11 +188,13 @@ PhysicalOutcome EpisodePhysics::Finish(const Episode& episode) {
   for (const SimulatedObstacle& obstacle : all.obstacles) {
     outcome.replayed.obstacles.push_back(obstacle.name);
   }
-  if (!player_) return outcome;
+  outcome.lost = lost_;
+  if (rows_.empty()) return outcome;
   const SuperposedWalk walk = episode.Executed();
   const bool rests = walk.duration() <= episode.end;
   const long periods = std::lround(options_.hold / options_.row_period);
-  for (long i = 0; rests && i < periods && !fallen(); ++i) PlayPeriod(walk, player_->time());
+  for (long i = 0; rests && i < periods; ++i) Advance(walk, player_->time(), episode.waited);
+  outcome.lost = lost_;
   const GoalRegion goal = since_->GoalAt(episode.end);
   std::array<Foothold, 2> feet;
   for (const Side side : {Side::kLeft, Side::kRight}) {
@@ -193,7 +202,7 @@ PhysicalOutcome EpisodePhysics::Finish(const Episode& episode) {
     Nth(feet, Index(side)) = {OnFloor(X_WSole), X_WSole.translation().z()};
   }
   outcome.no_step = no_step_;
-  outcome.in_goal = rests && !fallen() && goal.ContainsStance(feet);
+  outcome.in_goal = rests && !fallen() && lost_.empty() && goal.ContainsStance(feet);
   const Eigen::Vector2d seen = worlds_.back() * goal.X_WG.position();
   outcome.goal_off = (seen - episode.worlds.back().goal.X_WG.position()).norm();
   const ReferenceMotion motion = Executed(walk, std::min(walk.duration(), episode.end));

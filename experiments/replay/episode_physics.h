@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "experiments/control/contact_watch.h"
+#include "experiments/control/dcm_error.h"
 #include "experiments/live/episode.h"
 #include "experiments/live/true_world.h"
 #include "experiments/replay/replay_screen.h"
@@ -28,6 +29,7 @@ struct PhysicalOutcome {
   /// The nearest that a simulated sole which carries more than the other came to a no-step area
   /// that was there [m]; negative: it stood on one, that deep. Looked at each period.
   double no_step = std::numeric_limits<double>::infinity();
+  std::string lost;  ///< EpisodePhysics::lost()
 };
 
 /// The robot of an episode in physics, and what happens to it.
@@ -48,10 +50,12 @@ class EpisodePhysics {
   EpisodePhysics(EpisodeRobot robot, const TrueWorld& truth, const LiveOptions& options);
 
   /// Plays the period that begins at a tick, for EpisodeHooks::on_tick. What begins in it has been
-  /// decided by then. A robot that has fallen stays as it is.
+  /// decided by then. A robot that has fallen, or gets no more commands, stays as it is.
   void Play(const EpisodeTick& tick);
   /// Whether the waist leans by more than PlayOptions::fallen_tilt.
   bool fallen() const { return !rows_.empty() && rows_.back().fallen; }
+  /// Why its controller commands no more (ControllerLost); "": it does.
+  const std::string& lost() const { return lost_; }
   /// What the robot felt since the last call: events `early` and `late` (ContactWatch), and
   /// `pushed` when its DCM has left the plan so far that no foot is lifted.
   std::vector<EpisodeEvent> TakeFelt() { return std::exchange(felt_, {}); }
@@ -77,6 +81,8 @@ class EpisodePhysics {
   void Feel(const SuperposedWalk& walk);
   void FeelPush(const control::MeasuredState& measured);
   double NoStepAt(double t, const Pose2& X_US) const;
+  // Until the controller is lost.
+  void Advance(const SuperposedWalk& walk, double begin, double waited);
   void PlayPeriod(const SuperposedWalk& walk, double begin);
   // The motion that was executed, a row each period.
   ReferenceMotion Executed(const SuperposedWalk& walk, double end) const;
@@ -87,8 +93,9 @@ class EpisodePhysics {
   control::ContactWatch contacts_;
   std::vector<EpisodeEvent> felt_;
   std::shared_ptr<const PlannedStates> plan_;  // none without a controller
-  Eigen::Vector2d dcm_off_{0, 0};              // of the DCM, low-pass, in W [m]
+  control::DcmError dcm_;
   bool pushed_ = false;
+  std::string lost_;
   std::optional<TrueWorld> since_;  // by the time of the walk
   std::optional<Player> player_;
   std::vector<ReplayRow> rows_;

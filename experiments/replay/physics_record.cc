@@ -29,6 +29,7 @@ ordered_json RecordOf(const PhysicalOutcome& outcome) {
                        {"touches_at_rest", at_rest},
                        {"in_goal", outcome.in_goal},
                        {"goal_off_m", outcome.goal_off}};
+  if (!outcome.lost.empty()) json["controller_lost"] = outcome.lost;
   if (std::isfinite(outcome.no_step)) json["no_step_m"] = outcome.no_step;
   for (const Push& push : outcome.pushes) {
     json["pushed"].push_back({{"at_s", push.at},
@@ -46,8 +47,9 @@ ordered_json RecordOf(const PhysicalOutcome& outcome) {
 }  // namespace
 
 std::string PhysicsText(const PhysicalOutcome& outcome) {
-  if (outcome.replayed.result.rows.empty()) return "";
-  std::string text = ReplayText(outcome.replayed);
+  const std::string lost = outcome.lost.empty() ? "" : "  no more commands: " + outcome.lost + "\n";
+  if (outcome.replayed.result.rows.empty()) return lost;
+  std::string text = ReplayText(outcome.replayed) + lost;
   text += std::string("  in the world: ") + (outcome.in_goal ? "stands" : "does not stand") +
           Formatted(" in the goal, which is %.1f mm from where it was measured last\n",
                     1e3 * outcome.goal_off);

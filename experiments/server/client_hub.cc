@@ -21,13 +21,15 @@ std::shared_ptr<const std::string> TextOf(const nlohmann::json& message) {
 }  // namespace
 
 ClientHub::ClientHub(const LiveConfig& config, const Place& place, ClientInbox* inbox,
-                     NewsBoard* board)
+                     NewsBoard* board, ClientControl* control)
     : robot_(place.robot),
       scene_(place.scene),
       period_(config.live.period),
-      reader_(place.scene, config.live),
+      reader_(place.scene, config.live,
+              control != nullptr ? ClientPart::kControl : ClientPart::kWorld),
       inbox_(*inbox),
       board_(*board),
+      control_(control),
       hello_(TextOf(HelloMessage(config, robot_, scene_, SpareNames(config.live)))) {}
 
 void ClientHub::Join(ClientLine* line) {
@@ -38,7 +40,12 @@ void ClientHub::Join(ClientLine* line) {
   }
 }
 
-void ClientHub::Leave(ClientLine* line) { clients_.erase(line); }
+void ClientHub::Leave(ClientLine* line) {
+  clients_.erase(line);
+  if (line != controls_) return;
+  controls_ = nullptr;
+  control_->Lose("the client that controls the robot has gone");
+}
 
 bool ClientHub::Floods(Client* client) const {
   const steady_clock::time_point now = steady_clock::now();
@@ -52,11 +59,15 @@ bool ClientHub::Floods(Client* client) const {
 void ClientHub::Receive(ClientLine* line, std::string_view text) {
   const auto client = clients_.find(line);
   if (client == clients_.end()) return;
-  if (Floods(&client->second)) return line->Drop();
+  const bool answers = line == controls_ && control_->asks();  // as fast as it is asked
+  if (!answers && Floods(&client->second)) return line->Drop();
   try {
     Do(line, &client->second, reader_.Read(text));
   } catch (const std::exception& error) {
     line->Send(TextOf(ErrorMessage(error.what())));
+    if (line != controls_) return;
+    control_->Lose(std::string("the client that controls the robot answered badly: ") +
+                   error.what());
   }
 }
 
@@ -85,7 +96,30 @@ void ClientHub::Do(ClientLine* line, Client* client, const ClientMessage& messag
     inbox_.Hold(hold->held);
   } else if (std::holds_alternative<halfstep::End>(message)) {
     inbox_.End();
+  } else if (std::holds_alternative<Controls>(message)) {
+    BeginControl(line);
+  } else if (const auto* command = std::get_if<Commanded>(&message)) {
+    if (line != controls_) {
+      throw InputError(
+          {"command: another client controls the robot, or none does (valid: from the "
+           "client that said control)"});
+    }
+    control_->Answer(*command);
   }
+}
+
+void ClientHub::BeginControl(ClientLine* line) {
+  if (controls_ != nullptr) {
+    throw InputError({"control: a client controls the robot already (valid: once)"});
+  }
+  controls_ = line;
+  control_->Begin();
+  TellControl();
+}
+
+void ClientHub::TellControl() {
+  if (controls_ == nullptr) return;
+  for (const Text& text : control_->TakeMessages()) controls_->Send(text);
 }
 
 void ClientHub::Broadcast(const Text& text) {
@@ -97,6 +131,7 @@ void ClientHub::Keep(const std::string& kind, const nlohmann::json& message) {
 }
 
 void ClientHub::Announce() {
+  TellControl();
   EpisodeNews news = board_.Take();
   if (news.volumes) volumes_ = news.volumes;
   if (news.waiting) Keep("waiting", WaitingMessage(*news.waiting));

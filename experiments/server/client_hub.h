@@ -12,6 +12,7 @@
 
 #include "experiments/config/experiment.h"
 #include "experiments/live/live_config.h"
+#include "experiments/server/client_control.h"
 #include "experiments/server/client_inbox.h"
 #include "experiments/server/client_line.h"
 #include "experiments/server/client_message.h"
@@ -27,16 +28,20 @@ class ClientHub {
   static constexpr int kMostMessages = 1000;  ///< of a client in a second; one that sends more is
                                               ///< dropped
 
-  /// Borrows inbox and board. `place`: with the spare boxes.
-  ClientHub(const LiveConfig& config, const Place& place, ClientInbox* inbox, NewsBoard* board);
+  /// Borrows inbox, board and control. `place`: with the spare boxes. `control`: clients may
+  /// control a simulated robot by it, and change nothing in the world; null: there is none.
+  ClientHub(const LiveConfig& config, const Place& place, ClientInbox* inbox, NewsBoard* board,
+            ClientControl* control);
 
   /// Whether one more client may come.
   bool HasRoom() const { return clients_.size() < kMostClients; }
   /// A client has come: it is told what is known by now. Precondition: HasRoom(). `line` is
   /// borrowed until Leave().
   void Join(ClientLine* line);
-  void Leave(ClientLine* line);  ///< its line has ended
-  /// Does what a client says; what is wrong with it is answered, and nothing is thrown.
+  /// Its line has ended. There will be no more commands when it was the one that controls.
+  void Leave(ClientLine* line);
+  /// Does what a client says; what is wrong with it is answered, and nothing is thrown. What is
+  /// wrong from the client that controls ends its control.
   void Receive(ClientLine* line, std::string_view text);
 
   /// Tells everybody the news.
@@ -59,6 +64,9 @@ class ClientHub {
 
   bool Floods(Client* client) const;
   void Do(ClientLine* line, Client* client, const ClientMessage& message);
+  // Of a client that wants to control.
+  void BeginControl(ClientLine* line);
+  void TellControl();
   void Broadcast(const Text& text);
   // Keeps the newest of each kind for those who come later, and tells it.
   void Keep(const std::string& kind, const nlohmann::json& message);
@@ -75,6 +83,8 @@ class ClientHub {
   ClientMessageReader reader_;
   ClientInbox& inbox_;
   NewsBoard& board_;
+  ClientControl* control_;
+  ClientLine* controls_ = nullptr;  // the client that does; null: none, or it has gone
   std::map<ClientLine*, Client> clients_;
   Text hello_, drawing_;
   std::map<std::string, Text> newest_;  // by kind

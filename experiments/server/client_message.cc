@@ -1,6 +1,7 @@
 #include "experiments/server/client_message.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <numbers>
@@ -15,6 +16,9 @@ namespace {
 constexpr double kLongestMotion = 10.0;  // [s]
 constexpr double kOldest = 1e6;          // [s]
 constexpr double kMostTurn = 2.0 * std::numbers::pi;
+constexpr double kMostCommands = 1e12;
+constexpr double kMostAngle = 10.0;   // [rad]
+constexpr double kMostSpeed = 100.0;  // [rad/s]
 
 Eigen::Vector3d ReadPlace(MessageFields& fields) {
   return fields.Numbers("xyz_m", 3, -kFarthestMessage, kFarthestMessage);
@@ -90,6 +94,19 @@ MeasuredFrame ReadMeasured(MessageFields& fields, const Scene& scene) {
   return frame;
 }
 
+std::array<Vector6d, 2> BothLegs(MessageFields& fields, const std::string& key, double most) {
+  const Eigen::MatrixXd rows = fields.Rows(key, 2, 6, -most, most);
+  return {Vector6d(rows.row(0).transpose()), Vector6d(rows.row(1).transpose())};
+}
+
+Commanded ReadCommand(MessageFields& fields) {
+  const double number = fields.Number("n", 1.0, kMostCommands);
+  if (number != std::floor(number)) fields.Fail("n", "is no whole number (valid: from 1)");
+  return {.number = static_cast<long>(number),
+          .q = BothLegs(fields, "q_rad", kMostAngle),
+          .speeds = BothLegs(fields, "speeds_rad_s", kMostSpeed)};
+}
+
 Carry ReadCarry(MessageFields& fields, const Scene& scene) {
   return {.obstacle = ObstacleNamed(fields, "obstacle", scene),
           .to = ReadPlace(fields),
@@ -98,8 +115,10 @@ Carry ReadCarry(MessageFields& fields, const Scene& scene) {
 
 }  // namespace
 
-ClientMessageReader::ClientMessageReader(const Scene& scene, const LiveOptions& options)
+ClientMessageReader::ClientMessageReader(const Scene& scene, const LiveOptions& options,
+                                         ClientPart part)
     : scene_(scene),
+      part_(part),
       client_measures_(options.sensing.source == "client"),
       control_period_(options.period) {}
 
@@ -113,7 +132,10 @@ ClientMessage ClientMessageReader::Read(std::string_view text) const {
       {"hold", [](MessageFields&) { return Hold{true}; }},
       {"release", [](MessageFields&) { return Hold{false}; }},
       {"end", [](MessageFields&) { return End{}; }}};
-  if (client_measures_) {
+  if (part_ == ClientPart::kControl) {
+    readers["control"] = [](MessageFields&) { return Controls{}; };
+    readers["command"] = [](MessageFields& f) { return ReadCommand(f); };
+  } else if (client_measures_) {
     readers["measured"] = [&](MessageFields& f) { return ReadMeasured(f, scene_); };
   } else {
     readers["carry"] = [&](MessageFields& f) { return edit(ReadCarry(f, scene_)); };
@@ -129,8 +151,12 @@ ClientMessage ClientMessageReader::Read(std::string_view text) const {
   if (reader == readers.end()) {
     std::string valid;
     for (const auto& [name, unused] : readers) valid += (valid.empty() ? "" : ", ") + name;
-    throw InputError({"type: " + Quote(type) + " is not taken here, where live.sensing.source is " +
-                      (client_measures_ ? "client" : "stand_in") + " (valid: " + valid + ")"});
+    const std::string where =
+        part_ == ClientPart::kControl
+            ? "a client controls a simulated robot"
+            : std::string("live.sensing.source is ") + (client_measures_ ? "client" : "stand_in");
+    throw InputError({"type: " + Quote(type) + " is not taken here, where " + where +
+                      " (valid: " + valid + ")"});
   }
   MessageFields fields(object, type);
   fields.Text("type");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -9,6 +10,7 @@
 
 #include "experiments/live/live_config.h"
 #include "planner/scene/scene.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 
@@ -57,14 +59,27 @@ struct Hold {
   bool held = true;  ///< false: release
 };
 struct End {};
+/// The client controls the simulated robot from now on.
+struct Controls {};
+/// What it commands.
+struct Commanded {
+  long number = 0;                    ///< of the question, from 1
+  std::array<Vector6d, 2> q, speeds;  ///< of the legs' joints, by Index(Side) [rad], [rad/s]
+};
 /// All that a client may say.
-using ClientMessage = std::variant<Subscribe, Draw, TellVolumes, MeasuredFrame, Edit, Hold, End>;
+using ClientMessage =
+    std::variant<Subscribe, Draw, TellVolumes, MeasuredFrame, Edit, Hold, End, Controls, Commanded>;
+
+/// What clients do beside looking on: what is there, they change or measure (the config's
+/// live.sensing.source), or one of them controls a simulated robot, and nobody does either.
+enum class ClientPart { kWorld, kControl };
 
 /// Reads messages of clients, strictly. Immutable.
 class ClientMessageReader {
  public:
   /// `scene`: with the spare boxes.
-  ClientMessageReader(const Scene& scene, const LiveOptions& options);
+  ClientMessageReader(const Scene& scene, const LiveOptions& options,
+                      ClientPart part = ClientPart::kWorld);
 
   /// Throws InputError with a sentence that says what is wrong. Nothing else is thrown for any
   /// text.
@@ -72,6 +87,7 @@ class ClientMessageReader {
 
  private:
   Scene scene_;
+  ClientPart part_;
   bool client_measures_;
   double control_period_;
 };

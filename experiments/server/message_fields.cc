@@ -106,6 +106,30 @@ Eigen::VectorXd MessageFields::Numbers(const std::string& key, int count, double
   return numbers;
 }
 
+Eigen::MatrixXd MessageFields::Rows(const std::string& key, int rows, int count, double min,
+                                    double max) {
+  const json& list = Of(key);
+  const std::string valid =
+      Formatted(" (valid: %d lists of %d numbers ", rows, count) + RangeText(min, max) + ")";
+  if (!list.is_array() || std::ssize(list) != rows) {
+    Fail(key, Formatted("is no list of %d lists", rows) + valid);
+  }
+  Eigen::MatrixXd numbers(rows, count);
+  for (int i = 0; i < rows; ++i) {
+    const json& row = Nth(list, i);
+    if (!row.is_array() || std::ssize(row) != count) {
+      Fail(key, Formatted("item %d is no list of %d", i + 1, count) + valid);
+    }
+    for (int j = 0; j < count; ++j) {
+      numbers(i, j) = NumberOf(Nth(row, j));
+      if (!(numbers(i, j) >= min && numbers(i, j) <= max)) {
+        Fail(key, Formatted("item %d of list %d is not such a number", j + 1, i + 1) + valid);
+      }
+    }
+  }
+  return numbers;
+}
+
 MessageFields MessageFields::Object(const std::string& key) {
   const json& object = Of(key);
   if (!object.is_object()) Fail(key, "is no object (valid: {…})");

@@ -32,6 +32,8 @@ class MessageFields {
                 std::optional<double> otherwise = {});
   /// So many numbers.
   Eigen::VectorXd Numbers(const std::string& key, int count, double min, double max);
+  /// So many rows of so many numbers.
+  Eigen::MatrixXd Rows(const std::string& key, int rows, int count, double min, double max);
   /// The fields of an object.
   MessageFields Object(const std::string& key);
   /// The fields of each of a list of objects.

@@ -21,9 +21,14 @@ LiveConfig ServedEpisode::Served(LiveConfig config) {
   return config;
 }
 
+LiveConfig ServedEpisode::Controlled(LiveConfig config) {
+  config.live.clock = "lockstep";
+  return config;
+}
+
 ServedEpisode::ServedEpisode(const LiveConfig& config, const Place& place, const TrueWorld& truth,
                              const ServerOptions& options)
-    : board_([this] { server_->Announce(); }), hub_(config, place, &inbox_, &board_) {
+    : board_([this] { server_->Announce(); }), hub_(config, place, &inbox_, &board_, nullptr) {
   if (config.live.sensing.source == "client") {
     sensor_ = std::make_unique<ClientSensor>(place.scene, config, &inbox_);
   } else {
@@ -35,6 +40,18 @@ ServedEpisode::ServedEpisode(const LiveConfig& config, const Place& place, const
     sensor_ = std::move(edited);
   }
   server_ = std::make_unique<Server>(options, &hub_);
+  Wait("half-steps are prepared");
+}
+
+ServedEpisode::ServedEpisode(const LiveConfig& config, const Place& place,
+                             const ServerOptions& options, const ClientControl::Options& control)
+    : board_([this] { server_->Announce(); }),
+      control_(
+          std::in_place, control,
+          ClientControl::Calls{.wake = [this] { server_->Announce(); },
+                               .wait = [this](const std::string& reason) { board_.Wait(reason); }}),
+      hub_(config, place, &inbox_, &board_, &*control_),
+      server_(std::make_unique<Server>(options, &hub_)) {
   Wait("half-steps are prepared");
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include "experiments/live/episode.h"
 #include "experiments/live/live_config.h"
 #include "experiments/live/true_world.h"
+#include "experiments/server/client_control.h"
 #include "experiments/server/client_hub.h"
 #include "experiments/server/client_inbox.h"
 #include "experiments/server/edited_sensor.h"
@@ -23,14 +25,23 @@ class ServedEpisode {
   /// The config as an episode goes on that is served: by the wall clock, and where a stand-in
   /// senses, with boxes that a person may place.
   static LiveConfig Served(LiveConfig config);
+  /// As one goes on in which a client controls a simulated robot: in lockstep, and in the world of
+  /// the script.
+  static LiveConfig Controlled(LiveConfig config);
 
   /// `config` is Served(), `place` has the spare boxes, `truth` is of both. Clients may come from
   /// now on, and are told to wait. Throws as Server.
   ServedEpisode(const LiveConfig& config, const Place& place, const TrueWorld& truth,
                 const ServerOptions& options);
+  /// `config` is Controlled(). A client controls the robot, and others look on.
+  ServedEpisode(const LiveConfig& config, const Place& place, const ServerOptions& options,
+                const ClientControl::Options& control);
 
+  /// Precondition: a client controls the robot.
+  ClientControl& control() { return *control_; }
   const std::string& address() const { return server_->address(); }  ///< where clients find it
-  Sensor& sensor() { return *sensor_; }  ///< of the episode: what clients measure, or the stand-in
+  /// Of the episode: what clients measure, or the stand-in; null where a client controls.
+  Sensor* sensor() { return sensor_.get(); }
 
   /// Half-steps are prepared: clients that want them are told these volumes.
   void Prepare(std::shared_ptr<const SweptVolumes> volumes) { board_.Prepare(std::move(volumes)); }
@@ -43,7 +54,8 @@ class ServedEpisode {
   /// Stop is requested when a client asks for the end.
   std::stop_token stop_token() const { return inbox_.end_token(); }
 
-  /// The script that holds what people did, in times of the script.
+  /// The script that holds what people did, in times of the script. Precondition: there is a
+  /// sensor.
   std::vector<ScriptEvent> Script() const;
   /// Tells clients that the episode has ended, and lets them go. `folder`: where its record is.
   void End(const Episode& episode, const std::string& folder);
@@ -51,6 +63,7 @@ class ServedEpisode {
  private:
   ClientInbox inbox_;
   NewsBoard board_;
+  std::optional<ClientControl> control_;
   ClientHub hub_;
   EditedSensor* edited_ = nullptr;  // the sensor, when it is one
   std::unique_ptr<Sensor> sensor_;

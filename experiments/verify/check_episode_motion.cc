@@ -103,8 +103,8 @@ void CheckEpisodeEnding(const EpisodeText& episode, const EpisodeManifest& manif
       static_cast<int>(episode.begun.size()) >= all.walks.back().num_half_steps()) {
     findings->Disagree("manifest.json: stopped: nothing of the last walk was left to be cut");
   }
-  constexpr std::array<const char*, 7> kOthers = {"stuck", "too_long", "ended",  "interrupted",
-                                                  "fell",  "killed",   "no_plan"};
+  constexpr std::array<const char*, 8> kOthers = {"stuck", "too_long",     "ended",  "interrupted",
+                                                  "fell",  "uncontrolled", "killed", "no_plan"};
   findings->Say("ending: " + (manifest.ending.size() < 20 ? manifest.ending : "unknown") +
                 Formatted(" at %.6g s", manifest.end));
   if (std::ranges::find(kOthers, manifest.ending) != kOthers.end()) return;
