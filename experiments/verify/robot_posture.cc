@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "wpg/nth.h"
+
 namespace halfstep::verify {
 namespace {
 
@@ -10,7 +12,8 @@ constexpr double kReached = 1e-9;
 
 }  // namespace
 
-RobotPosture PostureOf(const RobotModel& robot, const WalkNumbers& x) {
+RobotPosture PostureOf(const RobotModel& robot, const WalkNumbers& x,
+                       const std::array<Vector6d, 2>* near) {
   RobotPosture posture;
   const Pose2 X_WB = Pose2{x[kComX], x[kComX + 1], x[kWaistYaw]} * Pose2{-robot.com_x_B, 0, 0};
   posture.X_WB = ToIsometry(X_WB, robot.waist_height);
@@ -18,13 +21,37 @@ RobotPosture PostureOf(const RobotModel& robot, const WalkNumbers& x) {
     const Eigen::Vector4d sole = x.segment<4>(SoleX(static_cast<int>(side)));
     const Eigen::Isometry3d X_BSole =
         posture.X_WB.inverse() * ToIsometry({sole[0], sole[1], sole[3]}, sole[2]);
-    const auto q = AnglesOf(robot.legs[side], X_BSole);
+    const auto q = AnglesOf(robot.legs[side], X_BSole, near == nullptr ? nullptr : &(*near)[side]);
     if (q) posture.legs[side] = PlaceLegAt(robot.legs[side], *q);
     const bool reached = q && FromSoleTo(posture.legs[side], X_BSole).norm() <= kReached;
     posture.q[side] = reached ? *q : Vector6d::Constant(std::nan(""));
     posture.reached = posture.reached && reached;
   }
   return posture;
+}
+
+std::array<RobotPosture, 9> PosturesAround(const RobotModel& robot, const WalkInstant& at,
+                                           double step, const std::array<Vector6d, 2>& near) {
+  constexpr int kMiddle = 4;
+  std::array<RobotPosture, 9> postures;
+  postures[kMiddle] = PostureOf(robot, at.value, &near);
+  for (const int sign : {1, -1}) {
+    for (int k = 1; k <= kMiddle; ++k) {
+      const RobotPosture& last = Nth(postures, kMiddle + sign * (k - 1));
+      std::array<Vector6d, 2> onwards = last.q;
+      // Straight on from the two before; of the first, those on the other side are known.
+      const int other = kMiddle + sign * (k - 2);
+      if (k > 1 || sign < 0) {
+        for (size_t side = 0; side < 2; ++side) {
+          onwards[side] += last.q[side] - Nth(postures, other).q[side];
+        }
+      }
+      const double t = sign * k * step;
+      Nth(postures, kMiddle + sign * k) =
+          PostureOf(robot, at.value + t * at.first + 0.5 * t * t * at.second, &onwards);
+    }
+  }
+  return postures;
 }
 
 }  // namespace halfstep::verify
