@@ -17,7 +17,7 @@ namespace {
 
 constexpr size_t kJoints = 6;       // of a leg
 constexpr double kParallel = 0.02;  // |sine| below which axes are parallel by design
-constexpr const char* kLegs = " (valid: two legs of six revolute joints)";
+constexpr const char* kTwoLegs = " (valid: two legs of six revolute joints)";
 
 [[noreturn]] void Refuse(const UrdfTree& urdf, const std::string& sentence) {
   throw InputError({urdf.file + ": " + sentence});
@@ -31,7 +31,7 @@ std::string NamesOf(const UrdfTree& urdf, const std::vector<int>& joints) {
   return names;
 }
 
-std::string Counted(const UrdfTree& urdf, const std::vector<int>& joints) {
+std::string JointsInWords(const UrdfTree& urdf, const std::vector<int>& joints) {
   return std::to_string(joints.size()) + " moving joints (" + NamesOf(urdf, joints) + ")";
 }
 
@@ -40,12 +40,12 @@ Limbs LegsByStructure(const UrdfTree& urdf) {
   if (const std::optional<Limbs> legs = FindLegPair(urdf, &arms)) return *legs;
   if (arms) {
     Refuse(urdf, "its only two limbs that hang on one link are arms by their names (" +
-                     NamesOf(urdf, arms->joints[0]) + "): there are no two legs" + kLegs);
+                     NamesOf(urdf, arms->joints[0]) + "): there are no two legs" + kTwoLegs);
   }
   Refuse(urdf,
          "no two chains of at least four moving joints each hang on one link: there are no two "
          "legs" +
-             std::string(kLegs));
+             std::string(kTwoLegs));
 }
 
 // Axes of a limb's joints at zero, seen from the root.
@@ -86,17 +86,17 @@ std::string WhyNotSix(const UrdfTree& urdf, const std::vector<int>& joints) {
 void AskForSixJoints(const UrdfTree& urdf, const Limbs& legs) {
   const auto& [a, b] = legs.joints;
   if (a.size() != b.size()) {
-    Refuse(urdf, "one of its legs has " + Counted(urdf, a) + ", the other one " + Counted(urdf, b) +
-                     ": they are no mirror images (valid: 6 each)");
+    Refuse(urdf, "one of its legs has " + JointsInWords(urdf, a) + ", the other one " +
+                     JointsInWords(urdf, b) + ": they are no mirror images (valid: 6 each)");
   }
   if (a.size() < kJoints) {
-    Refuse(urdf, "a leg of it has " + Counted(urdf, a) +
+    Refuse(urdf, "a leg of it has " + JointsInWords(urdf, a) +
                      ", so the foot cannot be put everywhere (valid: 6)");
   }
   if (a.size() == kJoints) return;
   for (const std::vector<int>& joints : legs.joints) {
     if (const std::string why = WhyNotSix(urdf, joints); !why.empty()) {
-      Refuse(urdf, "a leg of it has " + Counted(urdf, joints) + ": " + why +
+      Refuse(urdf, "a leg of it has " + JointsInWords(urdf, joints) + ": " + why +
                        " (valid: 6, three of the hip, one of the knee, two of the ankle)");
     }
   }

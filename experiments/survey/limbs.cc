@@ -38,7 +38,7 @@ std::vector<int> JointsAbove(const UrdfTree& urdf, int link) {
 }
 
 // Links that a moving joint moves and that move no further one: ends of limbs.
-std::vector<int> Ends(const UrdfTree& urdf) {
+std::vector<int> EndsOfLimbs(const UrdfTree& urdf) {
   std::vector<bool> is_end(urdf.links.size(), true);
   std::vector<int> ends;
   for (size_t link = urdf.links.size(); link-- > 1;) {
@@ -72,7 +72,7 @@ class LegSearch {
       : urdf_(urdf), X_(urdf.LinkPoses(std::vector<double>(urdf.joints.size(), 0.0))) {}
 
   std::optional<Limbs> Find(std::optional<Limbs>* arms) {
-    std::vector<int> ends = Ends(urdf_);
+    std::vector<int> ends = EndsOfLimbs(urdf_);
     std::ranges::reverse(ends);  // so that the first in the file comes first
     std::vector<std::vector<int>> above;
     for (const int end : ends) above.push_back(JointsAbove(urdf_, end));
