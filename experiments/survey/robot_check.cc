@@ -23,6 +23,7 @@ constexpr int kSamples = 20;            // of a half-step
 constexpr double kHrp2sLeg = 0.705;     // [m]
 constexpr double kBarUnit = 0.005;      // of a bar's height for HRP-2's size [m]
 constexpr double kBarThickness = 0.02;  // for HRP-2's size [m]
+constexpr double kLateFoot = 0.19;      // HalfStepShape::foot_delay of a foot that rises first
 constexpr double kBarLength = 4.0;      // far beyond both feet [m]
 
 std::string InQuotes(const std::string& text) {
@@ -48,7 +49,9 @@ class RobotChecker {
     Told(0.6);
     const double usual = 0.3 * check_.measures.leg_length;
     std::vector<double> strides = {usual};
-    if (check_.reach.stride > 0.0) strides = {0.6 * check_.reach.stride, check_.reach.stride};
+    if (const double longest = check_.reach.stride; longest > 0.0) {
+      strides = {0.55 * longest, 0.7 * longest, 0.85 * longest, longest};
+    }
     for (const double stride : strides) Walk(stride);
     Told(0.9);
     if (check_.reach.stride > 0.0) StepOver();
@@ -127,7 +130,21 @@ class RobotChecker {
       }
       return f.x;
     });
-    if (straight) reach.stride = straight->x;
+    if (straight) reach.stride = Refined(straight->x, set.prototype);
+  }
+
+  // The longest certified step straight ahead from one that the grid has to the grid's next one.
+  double Refined(double stride, const HalfStep& half_step) const {
+    double beyond = stride + config_.step_set.spacing;
+    for (int halvings = 0; halvings < 4; ++halvings) {
+      const double middle = 0.5 * (stride + beyond);
+      StepSet one{.prototype = half_step, .placements = {}};
+      one.placements.push_back(Foothold::Level({middle, -check_.measures.standing_width, 0.0}));
+      const bool certified = certifier_->Certifies(one.Down(0, Side::kLeft), {}) &&
+                             certifier_->Certifies(one.Up(0, Side::kLeft), {});
+      (certified ? stride : beyond) = middle;
+    }
+    return stride;
   }
 
   std::string WalkText(double stride) const {
@@ -178,12 +195,18 @@ class RobotChecker {
                            .via_height = check_.half_step.via_height,
                            .duration = check_.half_step.duration});
     }
-    const HalfStepSequence sequence =
-        MakeSequence({Foothold::Level({0, y, 0}), Foothold::Level({0, -y, 0})}, footsteps,
-                     check_.half_step.via_lateral, check_.half_step.shape, model_);
     const CertifiedFeasibility test(MarginEvaluator(robot_, scene, config_.smoothing.limits),
                                     config_.smoothing.certification);
-    return CertifyPlan(test, sequence).accepted;
+    // A foot that moves on later is higher by then.
+    for (const double delay : {check_.half_step.shape.foot_delay, kLateFoot}) {
+      HalfStepShape shape = check_.half_step.shape;
+      shape.foot_delay = std::max(shape.foot_delay, delay);
+      const HalfStepSequence sequence =
+          MakeSequence({Foothold::Level({0, y, 0}), Foothold::Level({0, -y, 0})}, footsteps,
+                       check_.half_step.via_lateral, shape, model_);
+      if (CertifyPlan(test, sequence).accepted) return true;
+    }
+    return false;
   }
 
   // By halves: what is told is certified, whether or not all lower bars are.

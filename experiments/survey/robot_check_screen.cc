@@ -49,9 +49,8 @@ std::string WhatItDoes(const RobotCheck& check) {
   const SetReach& reach = check.reach;
   std::string text = Formatted(
       "can do, by half-steps of %.3g s whose foot rises %.3g m:\n"
-      "  half-steps  %d of %d places of the swing foot keep every margin, looked at %s\n",
-      check.half_step.duration, check.half_step.via_height, check.half_steps, check.places,
-      "at 20 instants each");
+      "  half-steps  %d of %d places of the swing foot keep every margin (sampled)\n",
+      check.half_step.duration, check.half_step.via_height, check.half_steps, check.places);
   if (check.half_steps > 0) {
     text += Formatted(
         "  they reach  %.3g m forward, %.3g m backward, %.3g to %.3g m aside, toes %.3g deg in and "
@@ -94,7 +93,7 @@ std::string RobotCheckScreen(const RobotModel& robot, const RobotCheck& check) {
                                    : robot.legs[0].offsets) +
       "\n  torques     " + KnownText(KnownLimitsOf(robot, &LegJoint::max_torque), "N m") +
       "\n  speeds      " + KnownText(KnownLimitsOf(robot, &LegJoint::max_speed), "rad/s") +
-      "\n  accelerat.  " + KnownText(KnownLimitsOf(robot, &LegJoint::max_acceleration), "rad/s2") +
+      "\n  accel.      " + KnownText(KnownLimitsOf(robot, &LegJoint::max_acceleration), "rad/s²") +
       "\n  masses      " + (robot.masses.known() ? "of every link" : robot.masses.fault) +
       Formatted("\n  bodies      %zu; %zu pairs of them are watched, %zu are not\n",
                 robot.bodies.size(), robot.self_pairs.size(), robot.unwatched_pairs.size());

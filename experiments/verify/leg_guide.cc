@@ -56,9 +56,17 @@ std::array<Vector6d, 2> LegGuide::Near(double t) const {
   const double place = std::max(t, 0.0) / period_;
   const size_t k = std::min(static_cast<size_t>(place), angles_.size() - 2);
   const double share = place - static_cast<double>(k);
+  if (share > 1.0) return near;
   for (size_t side = 0; side < 2; ++side) {
-    const Vector6d &a = angles_[k][side], way = angles_[k + 1][side] - a;
-    if (Within(way, kJump) && share <= 1.0) near[side] = a + share * way;
+    const Vector6d &a = angles_[k][side], &b = angles_[k + 1][side];
+    if (!Within(b - a, kJump)) continue;
+    near[side] = a + share * (b - a);
+    if (k == 0 || k + 2 >= angles_.size()) continue;
+    // What the cubic through the four around it adds to the straight line.
+    const Vector6d before = angles_[k - 1][side] - 2 * a + b,
+                   after = a - 2 * b + angles_[k + 2][side];
+    const Vector6d bent = share * (1 - share) / 6 * ((2 - share) * before + (1 + share) * after);
+    if (Within(bent, kJump)) near[side] -= bent;
   }
   return near;
 }

@@ -1,5 +1,6 @@
 #include "experiments/verify/robot_posture.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "wpg/nth.h"
@@ -37,14 +38,16 @@ std::array<RobotPosture, 9> PosturesAround(const RobotModel& robot, const WalkIn
   postures[kMiddle] = PostureOf(robot, at.value, &near);
   for (const int sign : {1, -1}) {
     for (int k = 1; k <= kMiddle; ++k) {
-      const RobotPosture& last = Nth(postures, kMiddle + sign * (k - 1));
-      std::array<Vector6d, 2> onwards = last.q;
-      // Straight on from the two before; of the first, those on the other side are known.
-      const int other = kMiddle + sign * (k - 2);
-      if (k > 1 || sign < 0) {
-        for (size_t side = 0; side < 2; ++side) {
-          onwards[side] += last.q[side] - Nth(postures, other).q[side];
-        }
+      // From those next to it, of which beyond the middle there are more on the way back.
+      const int known = sign > 0 ? std::min(k, 3) : 3;
+      const auto q = [&](int back, size_t side) -> const Vector6d& {
+        return Nth(postures, kMiddle + sign * (k - back)).q[side];
+      };
+      std::array<Vector6d, 2> onwards;
+      for (size_t side = 0; side < 2; ++side) {
+        onwards[side] = q(1, side);
+        if (known == 2) onwards[side] += q(1, side) - q(2, side);
+        if (known == 3) onwards[side] += 2 * q(1, side) - 3 * q(2, side) + q(3, side);
       }
       const double t = sign * k * step;
       Nth(postures, kMiddle + sign * k) =

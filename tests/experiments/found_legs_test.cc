@@ -70,8 +70,9 @@ std::string Refusal(const std::string& urdf) {
 
 std::vector<std::string> FirstLeg(const std::string& urdf) {
   const UrdfTree tree = ParseUrdf("robot.urdf", urdf);
+  const FoundLegs legs = FindLegs(tree, {});
   std::vector<std::string> names;
-  for (const int joint : FindLegs(tree, {}).joints[0]) {
+  for (const int joint : legs.joints[0]) {
     names.push_back(tree.joints[static_cast<size_t>(joint)].name);
   }
   return names;
