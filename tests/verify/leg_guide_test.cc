@@ -23,6 +23,7 @@ RobotModel Offset(RobotModel robot) {
   return robot;
 }
 
+// Borrows the robot.
 DescribedWalk WalkOf(const RobotModel& robot) {
   const SuperposedWalk walk(Fig5().sequence, PlannedMotion(Fig5().sequence));
   return DescribedWalk(robot, PlanOf(Fig5().sequence), RowsOf(walk));
@@ -91,7 +92,8 @@ TEST(AnglesOf, TakesNothingOfAnglesThatAreNotNear) {
 }
 
 TEST(RecentInstants, SayWhatTheWalkSays) {
-  const DescribedWalk walk = WalkOf(Offset(Fig5().robot));
+  const RobotModel robot = Offset(Fig5().robot);
+  const DescribedWalk walk = WalkOf(robot);
   RecentInstants recent(walk);
   for (int k = 0; k < 40; ++k) {
     const double t = 0.1 * (k % 11);  // more than are remembered
