@@ -18,11 +18,10 @@
 namespace halfstep {
 namespace {
 
-constexpr double kCheckEffort = 1.0;    // of each search: about a second
 constexpr int kSamples = 20;            // of a half-step
 constexpr double kHrp2sLeg = 0.705;     // [m]
 constexpr double kBarUnit = 0.005;      // of a bar's height for HRP-2's size [m]
-constexpr double kBarThickness = 0.02;  // for HRP-2's size [m]
+constexpr double kBarThickness = 0.01;  // for HRP-2's size [m]
 constexpr double kLateFoot = 0.19;      // HalfStepShape::foot_delay of a foot that rises first
 constexpr double kBarLength = 4.0;      // far beyond both feet [m]
 
@@ -34,8 +33,9 @@ std::string InQuotes(const std::string& text) {
 
 class RobotChecker {
  public:
-  RobotChecker(const std::string& name, const RobotModel& robot, const RunHooks& hooks)
-      : name_(name), robot_(robot), hooks_(hooks), model_(MotionModelOf(robot)) {
+  RobotChecker(const std::string& name, const RobotModel& robot, const RunHooks& hooks,
+               double effort)
+      : name_(name), robot_(robot), hooks_(hooks), effort_(effort), model_(MotionModelOf(robot)) {
     ScaleDefaults(MeasuresOf(robot), &config_);
   }
 
@@ -50,7 +50,7 @@ class RobotChecker {
     const double usual = 0.3 * check_.measures.leg_length;
     std::vector<double> strides = {usual};
     if (const double longest = check_.reach.stride; longest > 0.0) {
-      strides = {0.55 * longest, 0.7 * longest, 0.85 * longest, longest};
+      strides = {0.7 * longest, longest};
     }
     for (const double stride : strides) Walk(stride);
     Told(0.9);
@@ -157,7 +157,7 @@ class RobotChecker {
     return text + Formatted(
                       "smoothing:\n  methods: [dichotomy, halfstep/sqp]\n"
                       "  optimizer: {effort: %g}\n",
-                      kCheckEffort);
+                      effort_);
   }
 
   // Six steps; the fastest certified walk is kept.
@@ -227,6 +227,7 @@ class RobotChecker {
   const std::string& name_;
   const RobotModel& robot_;
   const RunHooks& hooks_;
+  double effort_;
   std::shared_ptr<const MotionModel> model_;
   ExperimentConfig config_;
   std::optional<HalfStepCertifier> certifier_;
@@ -236,8 +237,9 @@ class RobotChecker {
 
 }  // namespace
 
-RobotCheck CheckRobot(const std::string& name, const RobotModel& robot, const RunHooks& hooks) {
-  return RobotChecker(name, robot, hooks).Check();
+RobotCheck CheckRobot(const std::string& name, const RobotModel& robot, const RunHooks& hooks,
+                      double effort) {
+  return RobotChecker(name, robot, hooks, effort).Check();
 }
 
 }  // namespace halfstep

@@ -50,10 +50,11 @@ struct RobotCheck {
 };
 
 /// Looks at what a robot can do: of all places of its step set by samples, of those farthest out by
-/// proof, six steps of four strides by `dichotomy` and `halfstep/sqp`, and a bar that is raised as
+/// proof, six steps of two strides by `dichotomy` and `halfstep/sqp`, and a bar that is raised as
 /// long as the steps over it are certified, the foot moving on as by default or later (0.19).
 /// `name`: the robot as a config names it, its file's path or a shipped name. Progress is told from
 /// 0 to 1.
-RobotCheck CheckRobot(const std::string& name, const RobotModel& robot, const RunHooks& hooks);
+RobotCheck CheckRobot(const std::string& name, const RobotModel& robot, const RunHooks& hooks,
+                      double effort = 1.0);
 
 }  // namespace halfstep
