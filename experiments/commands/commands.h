@@ -72,6 +72,16 @@ struct RobotCommand {
 /// found of it, marked as refused, and nothing else is written.
 ExitStatus SurveyRobotFile(const RobotCommand& command);
 
+struct RobotCheckCommand {
+  std::string robot;   ///< a shipped robot's name or a robot file
+  bool json = false;   ///< one JSON object in place of the screen
+  bool quiet = false;  ///< no progress and no warnings
+};
+
+/// `halfstep robot --check`: what is known of a robot, what is not, and what it can do
+/// (CheckRobot). Writes no file.
+ExitStatus CheckRobotFile(const RobotCheckCommand& command);
+
 struct SmoothCommand {
   RunCommand run;                    ///< `config` may be a run folder too; then its config.yaml
   std::vector<std::string> methods;  ///< in place of smoothing.methods when not empty

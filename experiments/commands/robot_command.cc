@@ -166,6 +166,16 @@ std::optional<StatedSoles> SolesOf(const std::vector<double>& numbers) {
   return soles;
 }
 
+// Options that make a robot file, which --check does not.
+void AskForNoSurvey(const CLI::App& app) {
+  for (const char* option : {"--out", "--name", "--waist", "--feet", "--package", "--bend",
+                             "--width", "--sole", "--overwrite"}) {
+    if (app.get_option(option)->count() == 0) continue;
+    throw InputError(
+        {std::string(option) + ": --check makes no robot file (valid: --json, --quiet)"});
+  }
+}
+
 }  // namespace
 
 ExitStatus SurveyRobotFile(const RobotCommand& command) {
@@ -189,12 +199,17 @@ CommandAction DeclareRobot(CLI::App* app, const Toolbox&) {
     std::string urdf;
     std::vector<std::string> feet, packages;
     std::vector<double> sole;
+    bool check = false;
   };
   const auto texts = std::make_shared<Texts>();
   SurveyRequest* const survey = &command->survey;
-  app->add_option("URDF", texts->urdf, "the robot, as its maker describes it")->required();
-  app->add_option("--out", command->out, "the robot file (default: NAME.yaml)");
-  app->add_option("--name", survey->name, "of the robot (default: the URDF's file)");
+  app->add_option("URDF", texts->urdf,
+                  "the robot, as its maker describes it; of --check a robot file or a shipped "
+                  "robot's name")
+      ->required();
+  app->add_option("--out", command->out,
+                  "the robot file (default: that of the URDF, or NAME, in .yaml)");
+  app->add_option("--name", survey->name, "of the robot (default: that of <robot>)");
   app->add_option("--waist", survey->legs.waist, "link on which both legs hang");
   app->add_option("--feet", texts->feet, "links of the left and of the right foot")->expected(2);
   app->add_option("--package", texts->packages, "NAME=FOLDER of package:// names; repeatable")
@@ -213,7 +228,18 @@ CommandAction DeclareRobot(CLI::App* app, const Toolbox&) {
       ->expected(2, 4);
   app->add_flag("--overwrite", command->overwrite, "replace older files");
   app->add_flag("--quiet", command->quiet, "print nothing but errors");
-  return [command, texts] {
+  const auto check = std::make_shared<RobotCheckCommand>();
+  app->add_flag("--check", texts->check,
+                "tell what is known of a robot, what is missing, and what it can do");
+  app->add_flag("--json", check->json, "of --check: print JSON");
+  return [app, command, texts, check] {
+    if (texts->check) {
+      AskForNoSurvey(*app);
+      check->robot = texts->urdf;
+      check->quiet = command->quiet;
+      return CheckRobotFile(*check);
+    }
+    if (check->json) throw InputError({"--json: of --check only"});
     SurveyRequest& request = command->survey;
     request.urdf = texts->urdf;
     if (request.urdf.extension() == ".yaml") {

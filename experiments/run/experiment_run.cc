@@ -142,7 +142,10 @@ void ExperimentRun::Smooth(const RunHooks& hooks) {
 
 MethodRun ExperimentRun::RunMethod(const std::string& name, const RunHooks& hooks) {
   MethodRun run(name);
-  SmoothingMonitor monitor({.progress = [&](double done) { hooks.progress(name, done); },
+  SmoothingMonitor monitor({.progress =
+                                [&](double done) {
+                                  if (hooks.progress) hooks.progress(name, done);
+                                },
                             .stop = hooks.stop,
                             .stop_proof = hooks.stop_step,
                             .workers = workers_,

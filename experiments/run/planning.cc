@@ -3,6 +3,7 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 
+#include "experiments/run/isolated_step.h"
 #include "experiments/run/missed_demands_text.h"
 #include "experiments/run/plan_inputs.h"
 #include "experiments/tables/not_covered_json.h"
@@ -57,22 +58,9 @@ HalfStepCertifier::HalfStepCertifier(const MarginEvaluator& evaluator,
       evaluator_(evaluator),
       feasibility_(evaluator, options) {}
 
-// The step in place that holds the half-step: up from its place, and down to it again.
 bool HalfStepCertifier::Certifies(const HalfStep& half_step, const Foothold& X_WS) const {
-  std::array<Foothold, 2> start;
-  Nth(start, Index(half_step.support)) = X_WS;
-  Nth(start, Index(half_step.swing())) = X_WS * half_step.X_SF;
-  const Footstep footstep{.side = half_step.swing(),
-                          .X_WF = X_WS * half_step.X_SF,
-                          .via_height = half_step.via_height,
-                          .duration = half_step.duration};
-  const HalfStepSequence sequence =
-      MakeSequence(start, {footstep}, half_step.via_lateral, half_step.shape, model_);
-  const SuperposedWalk walk(sequence, PlannedMotion(sequence));
-  const int i = half_step.kind == HalfStepKind::kUp ? 0 : 1;
   MarginEvaluator::Scratch scratch = evaluator_.MakeScratch();
-  return feasibility_.Check(walk, {walk.start_of(i), walk.end_of(i)}, &scratch).verdict ==
-         Verdict::kFeasible;
+  return AcceptsHalfStep(feasibility_, half_step, X_WS, model_, &scratch);
 }
 
 StepSet CertifiedHalfSteps(const RobotModel& robot, const ExperimentConfig& config,

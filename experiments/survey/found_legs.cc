@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
-#include <limits>
+#include <optional>
+#include <utility>
 
+#include "experiments/survey/limbs.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/suggestion.h"
 #include "wpg/files/text.h"
@@ -14,38 +15,91 @@
 namespace halfstep {
 namespace {
 
-constexpr size_t kFewest = 5;  // moving joints of what may be a leg
+constexpr size_t kJoints = 6;       // of a leg
+constexpr double kParallel = 0.02;  // |sine| below which axes are parallel by design
+constexpr const char* kTwoLegs = " (valid: two legs of six revolute joints)";
 
 [[noreturn]] void Refuse(const UrdfTree& urdf, const std::string& sentence) {
   throw InputError({urdf.file + ": " + sentence});
 }
 
-// Moving joints from the root to a link, the nearest to the root first.
-std::vector<int> JointsAbove(const UrdfTree& urdf, int link) {
-  std::vector<int> joints;
-  for (int joint; (joint = Nth(urdf.links, link).joint) >= 0;) {
-    const UrdfJoint& at = Nth(urdf.joints, joint);
-    if (at.kind != UrdfJoint::Kind::kFixed) joints.push_back(joint);
-    link = at.parent;
+std::string NamesOf(const UrdfTree& urdf, const std::vector<int>& joints) {
+  std::string names;
+  for (const int joint : joints) {
+    names += (names.empty() ? "" : ", ") + Nth(urdf.joints, joint).name;
   }
-  std::reverse(joints.begin(), joints.end());
-  return joints;
+  return names;
 }
 
-// Links that a moving joint moves and that move no further one: ends of limbs.
-std::vector<int> Ends(const UrdfTree& urdf) {
-  std::vector<bool> is_end(urdf.links.size(), true);
-  std::vector<int> ends;
-  for (size_t link = urdf.links.size(); link-- > 1;) {
-    const UrdfJoint& joint = Nth(urdf.joints, urdf.links[link].joint);
-    if (joint.kind != UrdfJoint::Kind::kFixed) {
-      if (is_end[link]) ends.push_back(static_cast<int>(link));
-      Nth(is_end, joint.parent) = false;
-    } else if (!is_end[link]) {
-      Nth(is_end, joint.parent) = false;
+std::string JointsInWords(const UrdfTree& urdf, const std::vector<int>& joints) {
+  return std::to_string(joints.size()) + " moving joints (" + NamesOf(urdf, joints) + ")";
+}
+
+Limbs LegsByStructure(const UrdfTree& urdf) {
+  std::optional<Limbs> arms;
+  if (const std::optional<Limbs> legs = FindLegPair(urdf, &arms)) return *legs;
+  if (arms) {
+    Refuse(urdf, "its only two limbs that hang on one link are arms by their names (" +
+                     NamesOf(urdf, arms->joints[0]) + "): there are no two legs" + kTwoLegs);
+  }
+  Refuse(urdf,
+         "no two chains of at least four moving joints each hang on one link: there are no two "
+         "legs" +
+             std::string(kTwoLegs));
+}
+
+// Axes of a limb's joints at zero, seen from the root.
+std::vector<Eigen::Vector3d> AxesOf(const UrdfTree& urdf, const std::vector<int>& joints) {
+  const auto X = urdf.LinkPoses(std::vector<double>(urdf.joints.size(), 0.0));
+  std::vector<Eigen::Vector3d> axes;
+  for (const int index : joints) {
+    const UrdfJoint& joint = Nth(urdf.joints, index);
+    axes.push_back(Nth(X, joint.child).linear() * joint.axis);
+  }
+  return axes;
+}
+
+// How a leg of more than six joints is made where its first six are no hip, knee and ankle; ""
+// where they are, so that what is beyond are toes. A joint that is not understood has no axis.
+std::string WhyNotSix(const UrdfTree& urdf, const std::vector<int>& joints) {
+  const auto axes = AxesOf(urdf, joints);
+  const auto parallel = [&axes](size_t i) { return axes[i].cross(axes[i + 1]).norm() < kParallel; };
+  if (!parallel(0) && !parallel(1) && !parallel(4)) return "";
+  const auto name = [&](size_t i) { return Nth(urdf.joints, joints[i]).name; };
+  const auto how = [&](size_t i) {
+    for (const auto& [one, other] : {std::pair{i, i + 1}, std::pair{i + 1, i}}) {
+      if (Nth(urdf.joints, joints[one]).mimics == name(other)) {
+        return name(one) + " mimics " + name(other);
+      }
+    }
+    return name(i) + " and " + name(i + 1) + " turn about parallel axes";
+  };
+  const bool knee = !parallel(0) && !parallel(1) && parallel(3) && !parallel(5);
+  if (knee) return "the knee is two joints, " + how(3);
+  return "its first six are no hip of three joints, knee and ankle of two, for " +
+         how(parallel(0)   ? 0
+             : parallel(1) ? 1
+                           : 4);
+}
+
+// Refuses what are no legs of six joints, toes beyond the sixth aside.
+void AskForSixJoints(const UrdfTree& urdf, const Limbs& legs) {
+  const auto& [a, b] = legs.joints;
+  if (a.size() != b.size()) {
+    Refuse(urdf, "one of its legs has " + JointsInWords(urdf, a) + ", the other one " +
+                     JointsInWords(urdf, b) + ": they are no mirror images (valid: 6 each)");
+  }
+  if (a.size() < kJoints) {
+    Refuse(urdf, "a leg of it has " + JointsInWords(urdf, a) +
+                     ", so the foot cannot be put everywhere (valid: 6)");
+  }
+  if (a.size() == kJoints) return;
+  for (const std::vector<int>& joints : legs.joints) {
+    if (const std::string why = WhyNotSix(urdf, joints); !why.empty()) {
+      Refuse(urdf, "a leg of it has " + JointsInWords(urdf, joints) + ": " + why +
+                       " (valid: 6, three of the hip, one of the knee, two of the ankle)");
     }
   }
-  return ends;
 }
 
 // The last link on which both hang. Links come after those that they hang on.
@@ -55,49 +109,6 @@ int CommonLink(const UrdfTree& urdf, int a, int b) {
     lower = Nth(urdf.joints, Nth(urdf.links, lower).joint).parent;
   }
   return a;
-}
-
-// A pair of limbs: the moving joints that each has for itself.
-struct Limbs {
-  std::array<int, 2> ends;
-  std::array<std::vector<int>, 2> joints;
-};
-
-Limbs LimbsOf(const UrdfTree& urdf, int a, int b) {
-  Limbs limbs{{a, b}, {JointsAbove(urdf, a), JointsAbove(urdf, b)}};
-  auto& [first, second] = limbs.joints;
-  size_t common = 0;
-  while (common < std::min(first.size(), second.size()) && first[common] == second[common]) {
-    ++common;
-  }
-  for (std::vector<int>& own : limbs.joints) {
-    own.erase(own.begin(), own.begin() + static_cast<std::ptrdiff_t>(common));
-  }
-  return limbs;
-}
-
-Limbs LowestPair(const UrdfTree& urdf) {
-  const auto X = urdf.LinkPoses(std::vector<double>(urdf.joints.size(), 0.0));
-  const std::vector<int> ends = Ends(urdf);
-  double lowest = std::numeric_limits<double>::infinity();
-  Limbs best;
-  for (size_t i = 0; i < ends.size(); ++i) {
-    for (size_t k = i + 1; k < ends.size(); ++k) {
-      Limbs limbs = LimbsOf(urdf, ends[i], ends[k]);
-      const size_t n = limbs.joints[0].size();
-      if (n < kFewest || n != limbs.joints[1].size()) continue;
-      const double height = Nth(X, ends[i]).translation().z() + Nth(X, ends[k]).translation().z();
-      if (!(height < lowest)) continue;
-      lowest = height;
-      best = std::move(limbs);
-    }
-  }
-  if (best.joints[0].empty()) {
-    Refuse(urdf,
-           "no two chains of at least five moving joints each hang on one link: there are no two "
-           "legs (valid: two legs of six revolute joints)");
-  }
-  return best;
 }
 
 // −1: the first name is of the left side, +1: the second, 0: they do not tell.
@@ -125,19 +136,14 @@ FoundLegs FindLegs(const UrdfTree& urdf, const LegNames& names) {
   const bool named = !names.feet[0].empty() && !names.feet[1].empty();
   Limbs limbs = named
                     ? LimbsOf(urdf, LinkNamed(urdf, names.feet[0]), LinkNamed(urdf, names.feet[1]))
-                    : LowestPair(urdf);
+                    : LegsByStructure(urdf);
+  AskForSixJoints(urdf, limbs);
   FoundLegs found;
   int left = named ? -1 : 0;
   const auto joint_at = [&](size_t limb, size_t i) -> const UrdfJoint& {
     return Nth(urdf.joints, limbs.joints[limb][i]);
   };
-  const size_t n = std::min(limbs.joints[0].size(), limbs.joints[1].size());
-  if (n < 6) {
-    std::string chain;
-    for (size_t i = 0; i < n; ++i) chain += (i == 0 ? "" : ", ") + joint_at(0, i).name;
-    Refuse(urdf, "a leg of it has " + std::to_string(n) + " moving joints (" + chain +
-                     "), so the foot cannot be put everywhere (valid: 6)");
-  }
+  const size_t n = limbs.joints[0].size();
   for (size_t i = 0; i < n && left == 0; ++i)
     left = LeftOf(joint_at(0, i).name, joint_at(1, i).name);
   found.sides_by_name = left != 0;
@@ -150,9 +156,9 @@ FoundLegs FindLegs(const UrdfTree& urdf, const LegNames& names) {
   found.waist = names.waist.empty() ? CommonLink(urdf, joint_at(0, 0).parent, joint_at(1, 0).parent)
                                     : LinkNamed(urdf, names.waist);
   for (size_t side = 0; side < 2; ++side) {
-    std::copy_n(limbs.joints[side].begin(), 6, found.joints[side].begin());
-    found.feet[side] = joint_at(side, 5).child;
-    for (size_t i = 6; i < n; ++i) found.beyond.push_back(joint_at(side, i).name);
+    std::copy_n(limbs.joints[side].begin(), kJoints, found.joints[side].begin());
+    found.feet[side] = joint_at(side, kJoints - 1).child;
+    for (size_t i = kJoints; i < n; ++i) found.beyond.push_back(joint_at(side, i).name);
   }
   return found;
 }

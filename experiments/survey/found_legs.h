@@ -8,7 +8,7 @@
 
 namespace halfstep {
 
-/// Two chains of joints that hang on one link and end lowest: the legs of a URDF.
+/// Two chains of joints that hang on one link: the legs of a URDF.
 struct FoundLegs {
   int waist = -1;                            ///< link on which both hang
   std::array<int, 2> feet{-1, -1};           ///< links that the sixth joints move, by Index(Side)
@@ -23,10 +23,10 @@ struct LegNames {
   std::array<std::string, 2> feet;  ///< by Index(Side)
 };
 
-/// Finds the legs: of all pairs of chains with as many moving joints each, at least five, between a
-/// common link and their ends, the pair whose ends are lowest where all joints are at zero, z of
-/// the root being up. Throws InputError with one sentence when there is none, or when its chains
-/// have fewer than six joints.
+/// Finds the legs by their structure (FindLegPair), or as the user names them, and reads no mesh.
+/// Throws InputError with one sentence, which names the joints, when there are none; when they have
+/// not six joints each, but for toes beyond the sixth; or when the first six of more are no hip,
+/// knee and ankle, as of legs whose knee is two joints.
 FoundLegs FindLegs(const UrdfTree& urdf, const LegNames& names);
 
 }  // namespace halfstep

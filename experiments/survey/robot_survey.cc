@@ -33,11 +33,15 @@ class Surveyor {
 
   RobotSurvey Survey() {
     draft_.urdf_path = std::filesystem::absolute(request_.urdf).lexically_normal();
-    draft_.name = request_.name.empty() ? request_.urdf.stem().string() : request_.name;
-    draft_.path = request_.out.empty() ? draft_.urdf_path.parent_path() / (draft_.name + ".yaml")
-                                       : std::filesystem::absolute(request_.out).lexically_normal();
+    const std::string stem = request_.urdf.stem().string();
+    draft_.path = request_.out.empty()
+                      ? draft_.urdf_path.parent_path() /
+                            ((request_.name.empty() ? stem : request_.name) + ".yaml")
+                      : std::filesystem::absolute(request_.out).lexically_normal();
     draft_.packages = request_.packages;
     draft_.urdf = ReadUrdf(draft_.urdf_path.string());
+    const bool is_named = !draft_.urdf.name.empty() && NameMistake(draft_.urdf.name).empty();
+    draft_.name = !request_.name.empty() ? request_.name : is_named ? draft_.urdf.name : stem;
     try {
       Find();
     } catch (const InputError& error) {

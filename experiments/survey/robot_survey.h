@@ -13,10 +13,10 @@ namespace halfstep {
 
 /// What is asked of a URDF, and what the user knows better.
 struct SurveyRequest {
-  std::filesystem::path urdf;                        ///< of the robot
-  std::string name = {};                             ///< "": that of the URDF's file
-  std::filesystem::path out = {};                    ///< the robot file; "": NAME.yaml beside it
-  LegNames legs = {};                                ///< waist and feet, where the user names them
+  std::filesystem::path urdf;      ///< of the robot
+  std::string name = {};           ///< "": that of `<robot>`, else of the URDF's file
+  std::filesystem::path out = {};  ///< the robot file; "": beside the URDF, named like it or `name`
+  LegNames legs = {};              ///< waist and feet, where the user names them
   std::map<std::string, std::string> packages = {};  ///< name → folder
   StanceRequest stance = {};                         ///< how the robot shall stand
   std::optional<StatedSoles> soles = {};             ///< where the user names them

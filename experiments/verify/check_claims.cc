@@ -9,6 +9,7 @@
 #include "experiments/verify/double_support.h"
 #include "experiments/verify/floor_distances.h"
 #include "experiments/verify/joint_accelerations.h"
+#include "experiments/verify/recent_instants.h"
 #include "experiments/verify/tolerances.h"
 #include "wpg/files/text.h"
 #include "wpg/nth.h"
@@ -24,7 +25,8 @@ class Claims {
         certificate_(certificate),
         distances_(*distances),
         near_(robot_),
-        subjects_(robot_, *distances) {}
+        subjects_(robot_, *distances),
+        recent_(walk) {}
 
   // What is wrong with a row; "": nothing.
   std::string Fault(const ClaimRow& row) {
@@ -115,7 +117,7 @@ class Claims {
   }
 
   // Margin of a row's subject at an instant; nan: the family has none of this kind.
-  double Scalar(Family family, ClaimSubject s, double t) const {
+  double Scalar(Family family, ClaimSubject s, double t) {
     const int foot = SoleX(s.first);
     switch (family) {
       case kFloor:
@@ -133,31 +135,31 @@ class Claims {
                at.first[foot + 2];
       }
       case kZmp:
-        return ZmpMargin(walk_.Row(t), robot_);
+        return ZmpMargin(recent_.Row(t), robot_);
       case kZmpRobot:
-        return walk_.DynamicsAt(t).zmp;
+        return recent_.Dynamics(t).zmp;
       case kTorque:
-        return walk_.DynamicsAt(t).TorqueMargin(robot_, static_cast<size_t>(s.first),
+        return recent_.Dynamics(t).TorqueMargin(robot_, static_cast<size_t>(s.first),
                                                 static_cast<size_t>(s.second));
       case kJointAcceleration:
         return JointAccelerationMargin(walk_, t, static_cast<size_t>(s.first),
                                        static_cast<size_t>(s.second));
       case kFriction:
-        return distances_.scene().friction - walk_.DynamicsAt(t).friction;
+        return distances_.scene().friction - recent_.Dynamics(t).friction;
       case kReach:
-        return ReachMargin(robot_, walk_.Row(t), s.first);
+        return ReachMargin(robot_, recent_.Row(t), s.first);
       case kJoint:
-        return JointMargin(robot_, walk_.Row(t), s.first, s.second);
+        return JointMargin(robot_, recent_.Row(t), s.first, s.second);
       case kJointSpeed: {
         const auto side = static_cast<size_t>(s.first), joint = static_cast<size_t>(s.second);
         return certificate_.joint_speed_scale * robot_.legs[side].joints[joint].max_speed -
-               std::abs(walk_.JointSpeeds(t)[side][s.second]);
+               std::abs(recent_.JointSpeeds(t)[side][s.second]);
       }
       case kGround:
         return walk_.floor().Above(
-            LowestPoint(Nth(robot_.bodies, s.first), PlaceRobot(robot_, walk_.Row(t))));
+            LowestPoint(Nth(robot_.bodies, s.first), PlaceRobot(robot_, recent_.Row(t))));
       case kNoStep: {
-        const PlayedRow row = walk_.Row(t);
+        const PlayedRow& row = recent_.Row(t);
         return row.Stands(s.first)
                    ? FromArea(robot_, row.X_WS(s.first), Nth(distances_.scene().no_step, s.second))
                    : kNoLimit;
@@ -171,7 +173,7 @@ class Claims {
     return std::nan("");
   }
 
-  std::string FaultOfScalar(const ClaimRow& row, ClaimSubject subject) const {
+  std::string FaultOfScalar(const ClaimRow& row, ClaimSubject subject) {
     const double rounding = row.family == kJointSpeed          ? near_.joint_speed
                             : row.family == kZmpRobot          ? near_.momentum
                             : row.family == kTorque            ? near_.torque
@@ -206,13 +208,13 @@ class Claims {
   // Margins beyond a cap are cut off, so a smaller one than the distance is no fault.
   std::string FaultOfDistance(const ClaimRow& row, ClaimSubject subject) {
     const std::array<double, 5> instants = Instants(row);
-    const Placement middle = PlaceRobot(robot_, walk_.Row(instants[0]));
+    const Placement middle = PlaceRobot(robot_, recent_.Row(instants[0]));
     const double value = Distance(row, subject, middle, instants[0], row.margin);
     if (!(value >= row.margin - near_.distance)) {
       return Formatted("margin %.9g, but %.9g by the walk", row.margin, value);
     }
     for (const double t : {instants[1], instants[4]}) {
-      const Placement at = PlaceRobot(robot_, walk_.Row(t));
+      const Placement at = PlaceRobot(robot_, recent_.Row(t));
       const double least = row.margin - row.bound;
       const double there = Distance(row, subject, at, t, least);
       if (!(there >= least - near_.distance)) {
@@ -249,6 +251,7 @@ class Claims {
   Distances& distances_;
   const Tolerances near_;
   const ClaimSubjects subjects_;
+  RecentInstants recent_;
 };
 
 }  // namespace

@@ -32,12 +32,24 @@ DescribedWalk::DescribedWalk(const RobotModel& robot, const WalkPlan& planned,
     half_step.form = rows[i].FormOf(half_step);
     pieces_.push_back({{plan.half_steps[i], PendulumRate(robot)}, rows[i].start});
   }
+  Guide(0.0);
 }
 
 DescribedWalk DescribedWalk::StopBranch(int last) const {
   DescribedWalk branch = *this;
   branch.pieces_.erase(branch.pieces_.begin() + last + 1, branch.pieces_.end());
+  // Until the first half-step that is left out it is the same walk.
+  if (last + 1 < num_half_steps()) branch.Guide(WindowOf(last + 1).first);
   return branch;
+}
+
+void DescribedWalk::Guide(double from) {
+  guide_.Extend(robot_, from, end(), [this](double t) { return At(t).value; });
+}
+
+RobotPosture DescribedWalk::PostureAt(double t) const {
+  const std::array<Vector6d, 2> near = NearAngles(t);
+  return PostureOf(robot_, At(t).value, &near);
 }
 
 std::pair<double, double> DescribedWalk::WindowOf(int half_step) const {
@@ -100,7 +112,8 @@ bool DescribedWalk::MovesHorizontally(double t, int side) const {
 
 PlayedRow DescribedWalk::Row(double t) const {
   const WalkInstant at = At(t);
-  const RobotPosture posture = PostureOf(robot_, at.value);
+  const std::array<Vector6d, 2> near = NearAngles(t);
+  const RobotPosture posture = PostureOf(robot_, at.value, &near);
   PlayedRow row;
   row.t = t;
   row.half_step = HalfStepAt(t);
@@ -118,7 +131,7 @@ PlayedRow DescribedWalk::Row(double t) const {
 std::array<Vector6d, 2> DescribedWalk::JointSpeeds(double t) const {
   const double half = Tolerances(robot_).speed_step;
   const double from = std::max(t - half, 0.0), to = std::min(t + half, end());
-  const RobotPosture a = PostureOf(robot_, At(from).value), b = PostureOf(robot_, At(to).value);
+  const RobotPosture a = PostureAt(from), b = PostureAt(to);
   std::array<Vector6d, 2> speeds;
   for (size_t s = 0; s < 2; ++s) speeds[s] = (b.q[s] - a.q[s]) / (to - from);
   return speeds;
@@ -126,7 +139,7 @@ std::array<Vector6d, 2> DescribedWalk::JointSpeeds(double t) const {
 
 WalkDynamics DescribedWalk::DynamicsAt(double t) const {
   WalkDynamics dynamics;
-  const auto momentum = RobotMomentum::Of(robot_, At(t));
+  const auto momentum = RobotMomentum::Of(robot_, At(t), NearAngles(t));
   if (!momentum) return dynamics;
   PlayedRow row = Row(t);
   row.zmp = momentum->Zmp(floor_);

@@ -7,6 +7,7 @@
 
 #include "experiments/verify/flat_floor.h"
 #include "experiments/verify/half_step_motion.h"
+#include "experiments/verify/leg_guide.h"
 #include "experiments/verify/played_motion.h"
 #include "experiments/verify/robot_posture.h"
 #include "experiments/verify/walk_text.h"
@@ -61,6 +62,9 @@ class DescribedWalk {
   /// All quantities and two time derivatives at t [s], in W.
   WalkInstant At(double t) const;
 
+  /// About the joint angles at t [rad], for PostureOf(); nan where nothing is known.
+  std::array<Vector6d, 2> NearAngles(double t) const { return guide_.Near(t); }
+
   /// All that a row of trajectory.csv says at t [s], but for the margins. Joint angles are nan
   /// where a leg does not reach.
   PlayedRow Row(double t) const;
@@ -85,6 +89,9 @@ class DescribedWalk {
     HalfStepMotion motion;
     double start = 0;  // t_i
   };
+  RobotPosture PostureAt(double t) const;
+  // Finds angles near by from `from` [s] to the end.
+  void Guide(double from);
   double Local(double t, size_t piece) const { return t - pieces_[piece].start; }
   // Whether the foot that half-step `up` raised stands again.
   bool HasLanded(double t, size_t up) const;
@@ -94,6 +101,7 @@ class DescribedWalk {
   const RobotModel& robot_;
   FlatFloor floor_;
   std::vector<Piece> pieces_;
+  LegGuide guide_;
 };
 
 }  // namespace halfstep::verify

@@ -25,13 +25,12 @@ double MarginOf(const RobotModel& robot, const std::array<Vector6d, 2>& accelera
 }  // namespace
 
 std::array<Vector6d, 2> JointAccelerations(const DescribedWalk& walk, double t) {
-  const WalkInstant at = walk.At(t);
   const double step = Tolerances(walk.robot()).acceleration_step;
+  const std::array<RobotPosture, 9> postures =
+      PosturesAround(walk.robot(), walk.At(t), step, walk.NearAngles(t));
   std::array<Vector6d, 2> sum = {Vector6d::Zero(), Vector6d::Zero()};
   for (int k = -4; k <= 4; ++k) {
-    const double s = k * step;
-    const RobotPosture posture =
-        PostureOf(walk.robot(), at.value + s * at.first + 0.5 * s * s * at.second);
+    const RobotPosture& posture = Nth(postures, k + 4);
     const double weight = posture.reached ? Nth(kWeights, std::abs(k)) : std::nan("");
     for (size_t side = 0; side < 2; ++side) sum[side] += weight * posture.q[side];
   }

@@ -15,6 +15,11 @@ constexpr double kSlack = 1e-12;
 // In so many parts do the axes move.
 constexpr int kParts = 16;
 
+// Newton's steps from angles near by: the first at most, each against the one before, and one after
+// which the rest is rounding [rad].
+constexpr double kNearAngles = 0.05, kShrinks = 0.25, kLast = 1e-8;
+constexpr int kMostSteps = 8;
+
 Matrix3d Turned(const Vector3d& axis, double q) {
   return Eigen::AngleAxisd(q, axis).toRotationMatrix();
 }
@@ -95,6 +100,20 @@ Vector6d Followed(const Leg& leg, Vector6d q, const Isometry3d& X_BSole) {
   return q;
 }
 
+// From angles on the same branch that are about the ones sought; none where that cannot be told.
+std::optional<Vector6d> FollowedFrom(const Leg& leg, Vector6d q, const Isometry3d& X_BSole) {
+  double most = kNearAngles;
+  for (int k = 0; k < kMostSteps; ++k) {
+    const Vector6d step = NewtonStep(PlaceLegAt(leg, q), X_BSole);
+    if (!(step.cwiseAbs().array() <= most).all()) return std::nullopt;
+    q += step;
+    const double size = step.cwiseAbs().maxCoeff();
+    if (size <= kLast) return q;
+    most = kShrinks * size;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 LegPlace PlaceLegAt(const Leg& leg, const Vector6d& q) {
@@ -120,8 +139,11 @@ Vector6d FromSoleTo(const LegPlace& place, const Isometry3d& X_BSole) {
   return rest;
 }
 
-std::optional<Vector6d> AnglesOf(const Leg& leg, const Isometry3d& X_BSole) {
+std::optional<Vector6d> AnglesOf(const Leg& leg, const Isometry3d& X_BSole, const Vector6d* near) {
   if (leg.met.empty()) return ClosedForm(leg, X_BSole);
+  if (near != nullptr) {
+    if (const auto q = FollowedFrom(leg, *near, X_BSole)) return q;
+  }
   const auto q = ClosedForm(leg.met.front(), X_BSole);
   if (!q) return std::nullopt;
   return Followed(leg, *q, X_BSole);

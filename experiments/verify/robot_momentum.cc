@@ -32,14 +32,13 @@ Points PointsOf(const BodyMass& body) {
 
 }  // namespace
 
-std::optional<RobotMomentum> RobotMomentum::Of(const RobotModel& robot, const WalkInstant& at) {
+std::optional<RobotMomentum> RobotMomentum::Of(const RobotModel& robot, const WalkInstant& at,
+                                               const std::array<Vector6d, 2>& near) {
   if (!robot.masses.known()) return std::nullopt;
   const double step = Tolerances(robot).momentum_step;
-  std::array<RobotPosture, 9> postures;
-  for (size_t k = 0; k < postures.size(); ++k) {
-    const double t = step * (static_cast<double>(k) - 4);
-    postures[k] = PostureOf(robot, at.value + t * at.first + 0.5 * t * t * at.second);
-    if (!postures[k].reached) return std::nullopt;
+  const std::array<RobotPosture, 9> postures = PosturesAround(robot, at, step, near);
+  for (const RobotPosture& posture : postures) {
+    if (!posture.reached) return std::nullopt;
   }
   RobotMomentum all;
   const auto push_on = [&](const BodyMass& body, const auto& pose) {

@@ -29,8 +29,10 @@ struct RobotMomentum {
   std::array<std::array<Eigen::Vector3d, 6>, 2> points;  ///< of the joints' axes, in W [m]
   std::array<std::array<Eigen::Vector3d, 6>, 2> axes;    ///< unit vectors in W
 
-  /// None where masses are not known, a leg does not reach or the floor does not push.
-  static std::optional<RobotMomentum> Of(const RobotModel& robot, const WalkInstant& at);
+  /// None where masses are not known, a leg does not reach or the floor does not push. `near`:
+  /// about the joint angles (PostureOf).
+  static std::optional<RobotMomentum> Of(const RobotModel& robot, const WalkInstant& at,
+                                         const std::array<Vector6d, 2>& near);
 
   /// The point of the floor about which its force has no horizontal moment, in W [m].
   Eigen::Vector2d Zmp(const FlatFloor& on) const;

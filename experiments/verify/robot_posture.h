@@ -20,7 +20,14 @@ struct RobotPosture {
     return X_WB * legs[side].X_BLink[link];
   }
 };
-/// A leg reaches when forward kinematics puts its sole to where the walk has it.
-RobotPosture PostureOf(const RobotModel& robot, const WalkNumbers& x);
+/// A leg reaches when forward kinematics puts its sole to where the walk has it. `near`, which may
+/// be null: about the angles (AnglesOf), nan where they are not known.
+RobotPosture PostureOf(const RobotModel& robot, const WalkNumbers& x,
+                       const std::array<Vector6d, 2>* near = nullptr);
+
+/// The postures −4 … 4 steps of time [s] away from an instant, while the walk's numbers go along
+/// the parabola that they describe there; the fifth is that of the instant, near `near`.
+std::array<RobotPosture, 9> PosturesAround(const RobotModel& robot, const WalkInstant& at,
+                                           double step, const std::array<Vector6d, 2>& near);
 
 }  // namespace halfstep::verify

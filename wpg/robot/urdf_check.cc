@@ -199,6 +199,9 @@ class Checker {
                              "` is no joint type (valid: revolute, continuous, prismatic, fixed, "
                              "floating, planar)");
     }
+    if (const TiXmlElement* mimic = joint.FirstChildElement("mimic")) {
+      found_.mimics[name] = AttributeOf(*mimic, "joint");
+    }
     if (auto faults = RepairMotion(file_, name, &joint); !faults.empty()) {
       found_.joint_faults[name] = std::move(faults);
     }

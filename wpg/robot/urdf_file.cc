@@ -96,6 +96,9 @@ UrdfJoint ToJoint(const urdf::Joint& joint, const UrdfFindings& found) {
     out.faults = faults->second;
   }
   if (joint.type == urdf::Joint::FIXED) return out;
+  if (const auto mimics = found.mimics.find(joint.name); mimics != found.mimics.end()) {
+    out.mimics = mimics->second;
+  }
   out.kind =
       joint.type == urdf::Joint::REVOLUTE ? UrdfJoint::Kind::kRevolute : UrdfJoint::Kind::kOther;
   if (out.kind == UrdfJoint::Kind::kRevolute) {
@@ -270,6 +273,7 @@ UrdfTree ParseUrdf(const std::string& path, const std::string& text) {
   }
   CheckAgainst(*model, found, path, &complaints);
   complaints.ThrowIfAny();
+  tree.name = model->getName();
   AddTree(*model->getRoot(), found, &tree);
   return tree;
 }

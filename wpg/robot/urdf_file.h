@@ -52,6 +52,7 @@ struct UrdfJoint {
   double upper = 0.0;                                               ///< [rad]
   double max_speed = 0.0;                                           ///< [rad/s]
   double max_effort = 0.0;                                          ///< [N m]; 0: not told
+  std::string mimics;               ///< the joint that it follows; "": none
   std::vector<std::string> faults;  ///< for which it can be no joint of a leg: complaints
   UrdfPlace place;                  ///< for complaints
 };
@@ -60,6 +61,7 @@ struct UrdfJoint {
 /// links that they hang on: links[0] is the root.
 struct UrdfTree {
   std::string file;                   ///< its path, for complaints.
+  std::string name;                   ///< of `<robot>`; may be ""
   InputFile source;                   ///< what was read.
   std::vector<UrdfLink> links;        ///< in file order
   std::vector<UrdfJoint> joints;      ///< in file order

@@ -78,7 +78,8 @@ std::vector<std::string> RepairMotion(const std::string& file, const std::string
   const bool understood = faults.empty();
   CheckSpeed(elements, joint, name);
   if (const TiXmlElement* mimic = joint->FirstChildElement("mimic")) {
-    elements.Complain(*mimic, name, "mimics another joint");
+    const std::string other = AttributeOf(*mimic, "joint");
+    elements.Complain(*mimic, name, "mimics " + (other.empty() ? "another joint" : other));
   }
   if (!understood) {
     joint->SetAttribute("type", "fixed");

@@ -1,0 +1,101 @@
+// `halfstep robot --check`: what it says, and what it refuses.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "experiments/commands/commands.h"
+#include "experiments/survey/robot_check_screen.h"
+#include "tests/experiments/child_process.h"
+#include "tests/temporary_folder.h"
+#include "tests/wpg/shipped_robots.h"
+
+namespace halfstep {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+RobotCheck Fabricated() {
+  RobotCheck check;
+  check.measures.leg_length = 0.5;
+  check.measures.lift = 0.2;
+  check.half_step.duration = 1.6;
+  check.half_step.via_height = 0.1;
+  check.places = 600;
+  check.half_steps = 200;
+  check.reach = {.forward = 0.3,
+                 .backward = 0.25,
+                 .nearest = 0.1,
+                 .farthest = 0.2,
+                 .inwards = 0.25,
+                 .outwards = 0.5,
+                 .stride = 0.3};
+  return check;
+}
+
+TEST(RobotCheck, SaysWhatARobotCanDo) {
+  const RobotModel robot = ShippedRobot("wren");
+  RobotCheck check = Fabricated();
+  check.walk = StraightWalk{0.3, 5.0, "dichotomy"};
+  check.bar = SteppedBar{.height = 0.05, .thickness = 0.02, .stride = 0.3};
+  check.not_covered = NotCoveredOf(robot);
+  const std::string screen = RobotCheckScreen(robot, check);
+  EXPECT_THAT(screen, HasSubstr("200 of 600 places"));
+  EXPECT_THAT(screen, HasSubstr("0.30 m/s: six steps of 0.3 m in 5.00 s, dichotomy (certified)"));
+  EXPECT_THAT(screen, HasSubstr("a bar 5 cm high and 2 cm thick"));
+  EXPECT_LE(std::ranges::count(screen, '\n'), 40);  // one screen
+  const json read = json::parse(RobotCheckJson(robot, check));
+  EXPECT_EQ(read["walk"]["speed_m_s"], 0.3);
+  EXPECT_EQ(read["reach"]["farthest_m"], 0.2);
+  EXPECT_EQ(read["not_covered"].size(), check.not_covered.size());
+}
+
+TEST(RobotCheck, SaysWhyARobotDoesNotWalk) {
+  const RobotModel robot = ShippedRobot("wren");
+  RobotCheck check = Fabricated();
+  check.why_no_walk = {"the first reason", "the second", "the third", "the fourth"};
+  const std::string screen = RobotCheckScreen(robot, check);
+  EXPECT_THAT(screen, HasSubstr("six steps straight ahead are not certified; worst first:"));
+  EXPECT_THAT(screen, HasSubstr("the third"));
+  EXPECT_THAT(screen, testing::Not(HasSubstr("the fourth")));
+  EXPECT_TRUE(json::parse(RobotCheckJson(robot, check))["walk"].is_null());
+}
+
+// At a tenth of the effort, for what it finds and not for how much.
+TEST(RobotCheck, LooksAtTheRobotThatIsGiven) {
+  const RobotModel robot = ShippedRobot("wren");
+  const RobotCheck check = CheckRobot("wren", robot, {}, 0.1);
+  EXPECT_GT(check.reach.stride, 0.0);
+  EXPECT_GE(check.reach.forward, check.reach.stride - 0.02);
+  EXPECT_GE(check.reach.farthest, check.reach.nearest);
+  EXPECT_GT(check.half_steps, 0);
+  EXPECT_LE(check.half_steps, check.places);
+  ASSERT_TRUE(check.walk.has_value());
+  // Twelve half-steps of 1.2 s, more than halved: methods have run.
+  EXPECT_LT(check.walk->duration, 7.2);
+  EXPECT_LE(check.walk->stride, check.reach.stride);
+  // Its foot rises that high and no higher.
+  if (check.bar) {
+    EXPECT_LT(check.bar->height, check.half_step.via_height);
+  }
+}
+
+TEST(RobotCheck, RefusesWhatItCannotLookAt) {
+  const TemporaryFolder place;
+  const auto refused = [&](const std::vector<std::string>& arguments) {
+    const Outcome outcome = Halfstep(place.path(), arguments);
+    EXPECT_EQ(outcome.status, kBadInput);
+    return outcome.err;
+  };
+  EXPECT_THAT(refused({"robot", "r.urdf", "--check"}),
+              HasSubstr("is no robot file (valid: one in .yaml, or a shipped robot's name"));
+  EXPECT_THAT(refused({"robot", "wren", "--check", "--out", "x.yaml"}),
+              HasSubstr("--out: --check makes no robot file"));
+  EXPECT_THAT(refused({"robot", "r.urdf", "--json"}), HasSubstr("--json: of --check only"));
+  EXPECT_THAT(refused({"robot", "nobody", "--check"}), HasSubstr("nobody"));
+}
+
+}  // namespace
+}  // namespace halfstep
