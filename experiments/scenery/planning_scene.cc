@@ -197,11 +197,9 @@ class PlanningSceneReader {
       Eigen::Vector3d scale(1, 1, 1);
       if (const YamlNode* const sizes = node.Find("dimensions"))
         scale = Numbers(*sizes, key, "xyz");
-      if (scale.x() != scale.y() || scale.x() != scale.z() || !(scale.x() > 0)) {
-        Fail(node, key + ".dimensions", "scales its axes differently (valid: one number for all)");
-      }
+      if ((scale.array() == 0.0).any()) Fail(node, key + ".dimensions", "a scale of 0");
       try {
-        thing->shape = MeshReference{request_.places.Find(resource->text, path_), scale.x()};
+        thing->shape = MeshReference{request_.places.Find(resource->text, path_), scale};
       } catch (const std::runtime_error& error) {
         Fail(*resource, key + ".resource", error.what());
       }

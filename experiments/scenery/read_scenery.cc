@@ -64,7 +64,7 @@ bool SceneryRequest::LeavesOut(const std::string& name) const {
 Scenery ReadScenery(const std::string& path, const SceneryRequest& request) {
   const std::string kind = LowerExtension(path);
   if (kind == ".stl" || kind == ".obj" || kind == ".dae") {
-    return Alone(path, MeshReference{path, request.scale});
+    return Alone(path, MeshReference{path, Eigen::Vector3d::Constant(request.scale)});
   }
   if (kind == ".pcd") {
     return Alone(path, CloudReference{path, false, request.radius, request.floor_below});

@@ -24,7 +24,8 @@ struct OwnMesh {
 /// A mesh file that a scene can name: STL, OBJ or DAE.
 struct MeshReference {
   std::filesystem::path path;  ///< from the working directory
-  double scale = 1.0;          ///< metres per unit
+  /// Metres per unit along its axes; TakeFloorOut makes one an OwnMesh where they differ.
+  Eigen::Vector3d scale{1, 1, 1};
 };
 /// A point cloud or an occupancy map that a scene can name.
 struct CloudReference {

@@ -147,7 +147,13 @@ class FloorFinder {
   bool Stays(SceneryThing* thing, MeshReference* mesh) {
     std::optional<LoadedMesh>& loaded = loaded_[mesh->path.string()];
     if (!loaded) loaded = LoadMesh(mesh->path.string());
-    return MeshStays(thing, {mesh->scale * loaded->vertices, loaded->triangles});
+    const Vector3d scale = mesh->scale;
+    const TriangleMesh scaled{scale.asDiagonal() * loaded->vertices, loaded->triangles};
+    if (scale.x() != scale.y() || scale.x() != scale.z() || scale.x() < 0) {
+      thing->shape = OwnMesh{scaled.vertices, scaled.triangles};
+      scenery_.Tell(thing->name + ": scaled differently along its axes, so a mesh of its own");
+    }
+    return MeshStays(thing, scaled);
   }
 
   bool Stays(SceneryThing* thing, CloudReference* cloud) {
@@ -164,7 +170,7 @@ class FloorFinder {
       for (const LoadedOctomap::Cube& cube : map.cubes) {
         if (!cube.occupied) continue;
         const Vector3d side = Vector3d::Constant(cube.size);
-        add(map.resolution * (cube.lower.cast<double>() + 0.5 * side), std::pow(cube.size, 2));
+        add(map.resolution * (cube.lower.cast<double>() + 0.5 * side), 1.0 * cube.size * cube.size);
       }
     } else {
       for (const Vector3d& p : LoadPoints(cloud->path.string()).points.colwise()) add(p, 1.0);

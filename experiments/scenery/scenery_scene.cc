@@ -138,7 +138,7 @@ class SceneMaker {
            (brings_floor ? ", floor: in_mesh" : "") + "}\n";
   }
   std::string ShapeText(const SceneryThing& thing, const std::string&, const MeshReference& mesh) {
-    return MeshText(FileText(mesh.path), mesh.scale, thing.brings_floor);
+    return MeshText(FileText(mesh.path), mesh.scale.x(), thing.brings_floor);
   }
   std::string ShapeText(const SceneryThing& thing, const std::string& name, const OwnMesh& mesh) {
     const fs::path file = folder_ / (stem_ == name ? name + ".obj" : stem_ + "_" + name + ".obj");

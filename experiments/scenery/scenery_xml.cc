@@ -9,7 +9,6 @@
 
 #include "experiments/scenery/scenery_shapes.h"
 #include "wpg/files/input_error.h"
-#include "wpg/files/mesh_file.h"
 #include "wpg/files/mesh_text.h"
 #include "wpg/files/nesting.h"
 #include "wpg/files/number_text.h"
@@ -95,13 +94,8 @@ void SceneryElements::TakeMesh(const TiXmlElement& at, const std::string& uri,
   } catch (const std::runtime_error& error) {
     Fail(at, error.what());
   }
-  if (scale.x() == scale.y() && scale.x() == scale.z() && scale.x() > 0) {
-    thing->shape = MeshReference{file, scale.x()};
-    return;
-  }
   if ((scale.array() == 0.0).any()) Fail(at, "a scale of 0");
-  LoadedMesh mesh = LoadMesh(file.string());
-  thing->shape = OwnMesh{scale.asDiagonal() * mesh.vertices, std::move(mesh.triangles)};
+  thing->shape = MeshReference{file, scale};
 }
 
 std::string SceneryElements::TextOf(const TiXmlElement& parent, const char* child) {
