@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "planner/scene/mesh_floor.h"
+#include "wpg/files/input_error.h"
 #include "wpg/files/mesh_file.h"
 #include "wpg/files/octomap_file.h"
 #include "wpg/files/point_file.h"
@@ -25,6 +26,7 @@ constexpr double kLevel = 0.9998;     // cosine of 1°
 constexpr double kLeastFloor = 1.0;   // of a floor in a mesh [m²]
 constexpr double kLargeTop = 4.0;     // of a thing that may be a floor elsewhere [m²]
 constexpr double kLevelHeight = 2.0;  // where floors are looked for [m]
+constexpr double kLeastRoom = 2.0;    // extent of a cloud in which a floor is looked for [m]
 constexpr double kLeastShare = 0.03;  // of all points, in the level with most of them
 
 // A level top that may be the floor of the scene.
@@ -33,10 +35,11 @@ struct Level {
   double height = 0.0, area = 0.0;  // [m], [m²]
 };
 
-std::string UpSentence(const std::string& name, double height) {
+// `what` says that something lies: "a plane lies".
+std::string UpSentence(const std::string& what, double height) {
   // What rounds to −0 is 0.
-  return name + Formatted(" lies at z = %.4g m: if that is the floor, --up %.4g brings it to 0",
-                          height, -height + 0.0);
+  return what + Formatted(" at z = %.4g m: if that is the floor, --up %.4g brings it to 0", height,
+                          -height + 0.0);
 }
 
 class FloorFinder {
@@ -56,8 +59,8 @@ class FloorFinder {
     const Level& lowest =
         *std::min_element(levels_.begin(), levels_.end(),
                           [](const Level& a, const Level& b) { return a.height < b.height; });
-    scenery_.Tell(
-        UpSentence(lowest.of + Formatted(": a level top of %.3g m²", lowest.area), lowest.height));
+    scenery_.Tell(UpSentence(lowest.of + Formatted(": a level top of %.3g m² lies", lowest.area),
+                             lowest.height));
   }
 
  private:
@@ -71,7 +74,7 @@ class FloorFinder {
       found_ = true;
       scenery_.Tell(thing->name + ": its top lies at 0: the floor");
     } else {
-      scenery_.Tell(UpSentence(thing->name + " is left out: a plane", HeightOf(*thing)));
+      scenery_.Tell(UpSentence(thing->name + " is left out: a plane lies", HeightOf(*thing)));
     }
     return false;
   }
@@ -146,7 +149,14 @@ class FloorFinder {
   }
   bool Stays(SceneryThing* thing, MeshReference* mesh) {
     std::optional<LoadedMesh>& loaded = loaded_[mesh->path.string()];
-    if (!loaded) loaded = LoadMesh(mesh->path.string());
+    try {
+      if (!loaded) loaded = LoadMesh(mesh->path.string());
+    } catch (const InputError& error) {
+      std::vector<std::string> complaints = error.complaints();
+      complaints.push_back(mesh->path.string() + ": is named by " + Quote(thing->name) +
+                           " (valid: a mesh; --without NAME leaves a thing out)");
+      throw InputError(std::move(complaints));
+    }
     const Vector3d scale = mesh->scale;
     const TriangleMesh scaled{scale.asDiagonal() * loaded->vertices, loaded->triangles};
     if (scale.x() != scale.y() || scale.x() != scale.z() || scale.x() < 0) {
@@ -159,8 +169,11 @@ class FloorFinder {
   bool Stays(SceneryThing* thing, CloudReference* cloud) {
     std::map<long, double> levels;  // points, or cells, by height in `bin`
     double bin = 0.02, all = 0.0;
+    Eigen::AlignedBox2d extent;
     const auto add = [&](const Vector3d& p, double weight) {
-      const double height = (thing->X_WO * p).z();
+      const Vector3d p_W = thing->X_WO * p;
+      const double height = p_W.z();
+      extent.extend(p_W.head<2>());
       if (std::abs(height) <= kLevelHeight / 2) levels[std::lround(height / bin)] += weight;
       all += weight;
     };
@@ -173,16 +186,18 @@ class FloorFinder {
         add(map.resolution * (cube.lower.cast<double>() + 0.5 * side), 1.0 * cube.size * cube.size);
       }
     } else {
-      for (const Vector3d& p : LoadPoints(cloud->path.string()).points.colwise()) add(p, 1.0);
+      const LoadedPoints loaded = LoadPoints(cloud->path.string());
+      for (const Vector3d& p : loaded.points.colwise()) add(p, 1.0);
     }
-    if (levels.empty() || cloud->floor_below) return true;
+    const bool is_room = extent.isEmpty() ? false : extent.sizes().maxCoeff() >= kLeastRoom;
+    if (!is_room || levels.empty() || cloud->floor_below) return true;
     const auto most =
         std::max_element(levels.begin(), levels.end(),
                          [](const auto& a, const auto& b) { return a.second < b.second; });
     const double share = most->second / all;
     const double height = bin * static_cast<double>(most->first);
     const std::string what =
-        Formatted("%.0f %% of %s", 100 * share, cloud->is_map ? "it" : "its points");
+        Formatted("%.0f %% of its %s lie", 100 * share, cloud->is_map ? "cells" : "points");
     if (share < kLeastShare) {
       scenery_.Tell(thing->name +
                     ": no floor is seen in it (--floor-below M: what is not higher is floor)");
@@ -190,7 +205,7 @@ class FloorFinder {
       found_ = true;
       cloud->floor_below = Shortened2(1.5 * bin);
       scenery_.Tell(thing->name + ": " + what +
-                    Formatted(" lies within %.2g m of 0: the floor; what is not higher than %.2g m "
+                    Formatted(" within %.2g m of 0: the floor; what is not higher than %.2g m "
                               "is left out (floor_below_m)",
                               1.5 * bin, *cloud->floor_below));
     } else {

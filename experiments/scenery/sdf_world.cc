@@ -247,6 +247,9 @@ class SdfReader {
     const SceneryElements within(file->path);
     const TiXmlElement& root = *file->document.RootElement();
     const TiXmlElement* const model = root.FirstChildElement("model");
+    if (model == nullptr && root.FirstChildElement("light") != nullptr) {
+      return scenery_.Tell(name + " is a light, and left out");
+    }
     if (model == nullptr) within.Fail(root, "has no <model>");
     Included as{.name = Elements::TextOf(include, "name"), .X = std::nullopt};
     if (include.FirstChildElement("pose") != nullptr) as.X = Pose(xml, include);

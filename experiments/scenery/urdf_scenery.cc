@@ -76,7 +76,7 @@ class UrdfEnvironment {
       if (Elements::AttributeText(*e, "type") != "fixed") ++moving;
     }
     if (moving > 0) {
-      scenery_.Tell(Formatted("%d joints that move are held at zero", moving));
+      scenery_.Tell(Formatted("joints that move are held at zero: %d", moving));
     }
   }
 

@@ -177,7 +177,7 @@ TEST(SceneCommand, CloudsAndMapsAreNamed) {
   const Converted points(file, {}, place);
   EXPECT_THAT(points.text,
               HasSubstr("points: {file: 'cloud.ply', radius_m: 0.02, floor_below_m: 0.03}"));
-  EXPECT_THAT(points.text, HasSubstr("50 % of its points lies within 0.03 m of 0: the floor"));
+  EXPECT_THAT(points.text, HasSubstr("50 % of its points lie within 0.03 m of 0: the floor"));
   SceneCommand up;
   up.up = 0.5;
   EXPECT_THAT(Converted(file, up).text, HasSubstr("--up -0.5 brings it to 0"));
