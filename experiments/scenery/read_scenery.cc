@@ -35,6 +35,16 @@ Scenery Alone(const std::string& path, decltype(SceneryThing::shape) shape) {
   return scenery;
 }
 
+// Clouds and maps are named as they are.
+Scenery NamedCloud(const std::string& path, bool is_map, const SceneryRequest& request) {
+  if (request.scale != 1.0) {
+    throw InputError(
+        {"--scale: is of meshes; a scene names clouds and maps as they are, in metres"});
+  }
+  return Alone(path,
+               CloudReference{path, is_map, is_map ? 0.0 : request.radius, request.floor_below});
+}
+
 Scenery ReadXml(const std::string& path, const std::string& text, const SceneryRequest& request) {
   TiXmlDocument document;
   ParseSceneryXml(path, text, &document);
@@ -67,10 +77,10 @@ Scenery ReadScenery(const std::string& path, const SceneryRequest& request) {
     return Alone(path, MeshReference{path, Eigen::Vector3d::Constant(request.scale)});
   }
   if (kind == ".pcd") {
-    return Alone(path, CloudReference{path, false, request.radius, request.floor_below});
+    return NamedCloud(path, false, request);
   }
   if (kind == ".bt" || kind == ".ot") {
-    return Alone(path, CloudReference{path, true, 0.0, request.floor_below});
+    return NamedCloud(path, true, request);
   }
   if (kind == ".png") {
     throw InputError({path + ": PNG is not read (`convert map.png map.pgm` makes a PGM of it)"});
@@ -83,7 +93,7 @@ Scenery ReadScenery(const std::string& path, const SceneryRequest& request) {
   if (kind == ".pgm") return ReadHeightmap(path, bytes, request);
   if (kind == ".ply") {
     if (request.as_points || !HasFaces(path, bytes)) {
-      return Alone(path, CloudReference{path, false, request.radius, request.floor_below});
+      return NamedCloud(path, false, request);
     }
     OwnMesh mesh = ReadPlyMesh(path, bytes);
     mesh.vertices *= request.scale;
