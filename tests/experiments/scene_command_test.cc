@@ -59,6 +59,7 @@ std::string RefusalOf(const std::string& name, const std::string& bytes,
   const TemporaryFolder place;
   command.file = WriteText(place / name, bytes);
   command.out = place / "scene.yaml";
+  command.quiet = true;
   try {
     ConvertScene(command);
   } catch (const InputError& error) {
@@ -78,7 +79,6 @@ TEST(SceneCommand, TakesBothFormsOfMoveItScenes) {
   ASSERT_EQ(newer.scene.obstacles.size(), 4u);
   ExpectBox(newer.Bounds("table top"), {0.5, -0.5, 0.68}, {1.1, 0.5, 0.72});
   ExpectBox(newer.Bounds("table top_2"), {0.77, -0.03, 0}, {0.83, 0.03, 0.68});
-  EXPECT_EQ(newer.Bounds("tip").max().z(), newer.Bounds("tip").max().z());
   EXPECT_NEAR(newer.Bounds("tip").max().z(), 0.2, 1e-9) << "its tip is up";
   EXPECT_NEAR(newer.Bounds("tip").max().x(), 0.1, 0.1 * 0.0013);
   ExpectBox(newer.Bounds("tip_2"), {0, 1.5, 0}, {0.2, 1.7, 0.2});
