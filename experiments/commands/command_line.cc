@@ -51,6 +51,10 @@ constexpr CommandEntry kEntries[] = {
      "  example: halfstep robot wpg/robots/hrp2.urdf --package hrp2_bodies=wpg/robots/hrp2 "
      "--out runs/guess.yaml",
      DeclareRobot},
+    {"scene",
+     "Make a scene file of what other programs have: MoveIt, URDF, SDF, meshes, clouds, maps.\n\n"
+     "  example: halfstep scene room.world --models models --out room.yaml",
+     DeclareScene},
     {"verify",
      "Check a run's certificates independently: played motion, forward kinematics, distances\n"
      "of its own; none of the code that smoothed. Exit status 3 when it disagrees, 4 when the\n"

@@ -69,5 +69,6 @@ CommandAction DeclareList(CLI::App* app, const Toolbox& tools);
 CommandAction DeclareLive(CLI::App* app, const Toolbox& tools);
 CommandAction DeclareRecover(CLI::App* app, const Toolbox& tools);
 CommandAction DeclareRobot(CLI::App* app, const Toolbox& tools);
+CommandAction DeclareScene(CLI::App* app, const Toolbox& tools);
 
 }  // namespace halfstep

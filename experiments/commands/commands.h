@@ -9,6 +9,7 @@
 #include "experiments/replay/simulated_robot.h"
 #include "experiments/report/walk_video.h"
 #include "experiments/run/exit_status.h"
+#include "experiments/scenery/scenery_readers.h"
 #include "experiments/survey/robot_survey.h"
 #include "wpg/files/yaml_fields.h"
 
@@ -81,6 +82,21 @@ struct RobotCheckCommand {
 /// `halfstep robot --check`: what is known of a robot, what is not, and what it can do
 /// (CheckRobot). Writes no file.
 ExitStatus CheckRobotFile(const RobotCheckCommand& command);
+
+struct SceneCommand {
+  std::string file;          ///< of another program
+  std::string out;           ///< the scene file
+  SceneryRequest request;    ///< how it is read
+  std::vector<double> pose;  ///< of its frame: x, y, z [m], yaw [deg]; empty: that of the world
+  double up = 0.0;           ///< by which it is moved up besides [m]
+  bool overwrite = false;    ///< replaces older files
+  bool quiet = false;
+};
+
+/// `halfstep scene`: a scene file of what another program has, and the meshes beside it that no
+/// file has which a scene can name. Throws InputError for what cannot be read; then nothing is
+/// written.
+ExitStatus ConvertScene(const SceneCommand& command);
 
 struct SmoothCommand {
   RunCommand run;                    ///< `config` may be a run folder too; then its config.yaml

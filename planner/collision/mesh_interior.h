@@ -24,10 +24,10 @@ namespace halfstep {
 /// winds around it (rule 1: patches never cancel), and when patches can be turned so that they make
 /// a closed surface that winds around it (rule 3). So a cavity counts as inside, and so may a point
 /// that large open patches surround; what is inside an open mesh is for rules 1 and 2 to say.
-/// Nothing is inside a hollow mesh, and inside a surface of cubes are these cubes: no winding number
-/// is asked for, of which a scanned room has very many patches.
-/// Nothing is promised where a single closed patch passes through itself and winds once each way.
-/// Source: winding numbers, [Jacobson2013].
+/// Nothing is inside a hollow mesh, and inside a surface of cubes are these cubes: no winding
+/// number is asked for, of which a scanned room has very many patches. Nothing is promised where a
+/// single closed patch passes through itself and winds once each way. Source: winding numbers,
+/// [Jacobson2013].
 class MeshInterior {
  public:
   /// Precondition: at least one triangle, finite vertices (std::logic_error). Patches are found
@@ -44,7 +44,6 @@ class MeshInterior {
                 const std::function<bool(const Eigen::Vector3d&)>& holds) const;
 
  private:
-  struct Patch;
   struct Patches;
   const Patches& patches() const;
 

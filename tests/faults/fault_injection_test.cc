@@ -72,6 +72,11 @@ void WriteSweep(const fs::path& place) {
                                       "  - {key: smoothing.methods, values: ['[dichotomy]']}\n");
 }
 
+void WriteRoom(const fs::path& place) {
+  WriteText(place / "room.scene",
+            "room\n* crate\n1\nbox\n1 1 1\n2 0 0.5\n0 0 0 1\n0 0 0 0\n.\n");
+}
+
 bool EveryCall() {
   const char* wish = std::getenv("HALFSTEP_FAULTS");
   return wish != nullptr && std::string(wish) == "all";
@@ -88,6 +93,7 @@ std::vector<Scenario> Scenarios() {
       {"Bake", WritePlanConfig, {"bake", "plan.yaml"}, "cache", false, ".parts"},
       {"Plan", WritePlanConfig, {"plan", "plan.yaml"}, "cache", false, "/cache"},
       {"Sweep", WriteSweep, {"sweep", "sweep.yaml", "--out", "s", "--jobs", "1"}, "s", false},
+      {"Scene", WriteRoom, {"scene", "room.scene", "--out", "o/r.yaml", "--overwrite"}, "o"},
       {"Draw", [](const fs::path&) {}, {"draw", "cylinders", "--count", "3"}, "."},
   };
   if (HasReport()) {

@@ -17,7 +17,7 @@ elif [ $# -gt 0 ]; then
   seconds=$1
   shift
 fi
-all="config csv mesh message octomap points robot robot_model run_folder scene swept_volume sweep urdf verify yaml"
+all="config csv mesh message octomap points robot robot_model run_folder scene scenery swept_volume sweep urdf verify yaml"
 [ $# -gt 0 ] || set -- $all
 
 # The fixtures of the tests are inputs as well.
@@ -27,6 +27,7 @@ fixtures_of() {
     mesh) echo tests/fixtures/mesh wpg/robots/hrp2 ;;
     robot | urdf) echo tests/fixtures/robot ;;
     scene) echo experiments/scenes tests/fixtures/scene ;;
+    scenery) echo tests/fixtures/scenery ;;
     sweep) echo experiments/sweeps tests/fixtures/sweep ;;
   esac
 }

@@ -96,6 +96,14 @@ double PointData::Next(PointScalar scalar) {
   return value;
 }
 
+size_t PointData::NextLength(PointScalar scalar) {
+  const double length = Next(scalar);
+  if (!(length >= 0 && length <= 1e9 && length == std::floor(length))) {
+    RefuseByte(path_, at_, "a list of " + Formatted("%g", length) + " numbers");
+  }
+  return static_cast<size_t>(length);
+}
+
 void PointData::Skip(size_t count, size_t each) {
   if (each != 0 && count > bytes_.size() / each) Need(bytes_.size() + 1);
   Need(count * each);
@@ -113,11 +121,7 @@ Eigen::Vector3d PointData::Element(const std::vector<PointField>& fields,
   for (size_t f = 0; f < fields.size(); ++f) {
     const PointField& field = fields[f];
     if (field.list) {
-      const double length = Next(*field.list);
-      if (!(length >= 0 && length <= 1e9 && length == std::floor(length))) {
-        RefuseByte(path_, at_, "a list of " + Formatted("%g", length) + " numbers");
-      }
-      Skip(static_cast<size_t>(length), field.scalar.bytes);
+      Skip(NextLength(*field.list), field.scalar.bytes);
       continue;
     }
     const auto axis =

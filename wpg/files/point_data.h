@@ -40,6 +40,23 @@ long PointCount(const MeshText& text, const MeshWord& word, long most);
 std::array<size_t, 3> PointAxes(const MeshText& text, const MeshWord& place,
                                 const std::vector<PointField>& fields);
 
+/// What a PLY file says of one kind of its things.
+struct PlyElement {
+  std::string name;                ///< "vertex", "face" …
+  long count = 0;                  ///< how many follow
+  std::vector<PointField> fields;  ///< of each
+};
+/// The header of a PLY file.
+struct PlyHeader {
+  std::string format;                ///< ascii, binary_little_endian or binary_big_endian
+  std::vector<PlyElement> elements;  ///< in the order of the data
+  MeshWord end;                      ///< the word with which it ends
+  /// The element of a name, or nullptr.
+  const PlyElement* Find(std::string_view name) const;
+};
+/// Reads the header, up to the data. Throws InputError, also where it names no format or no vertex.
+PlyHeader ReadPlyHeader(MeshText* text);
+
 /// Gathers points, and counts those that are none.
 class PointList {
  public:
@@ -63,10 +80,14 @@ class PointData {
   size_t at() const { return at_; }  ///< bytes that were read
   /// Reads past an element, and returns the fields `axes` of it; nullptr: nothing of it.
   Eigen::Vector3d Element(const std::vector<PointField>& fields, const std::array<size_t, 3>* axes);
+  /// The next number.
+  double Next(PointScalar scalar);
+  /// The length of a list, which comes next.
+  size_t NextLength(PointScalar scalar);
+  /// Passes over `count` numbers of `each` bytes.
+  void Skip(size_t count, size_t each);
 
  private:
-  double Next(PointScalar scalar);
-  void Skip(size_t count, size_t each);
   void Need(size_t bytes) const;
 
   const std::string& path_;

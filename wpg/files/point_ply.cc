@@ -10,12 +10,6 @@
 namespace halfstep {
 namespace {
 
-struct PlyElement {
-  std::string name;
-  long count = 0;
-  std::vector<PointField> fields;
-};
-
 PointScalar PlyScalar(const MeshText& text, const MeshWord& word) {
   struct Named {
     std::string_view name, other;
@@ -35,12 +29,6 @@ PointScalar PlyScalar(const MeshText& text, const MeshWord& word) {
   text.Fail(word, Quote(word.text) +
                       " is no type (valid: char, uchar, short, ushort, int, uint, float, double)");
 }
-
-struct PlyHeader {
-  std::string format;  // "": not said
-  std::vector<PlyElement> elements;
-  MeshWord end;  // the word with which it ends
-};
 
 // One line of the header, whose first word is `word`.
 void ReadPlyLine(const MeshWord& word, MeshText* text, PlyHeader* header) {
@@ -75,22 +63,6 @@ void ReadPlyLine(const MeshWord& word, MeshText* text, PlyHeader* header) {
   }
 }
 
-PlyHeader ReadPlyHeader(MeshText* text) {
-  PlyHeader header;
-  const MeshWord first = text->NextInLine();
-  if (first.text != "ply") text->Fail(first, "the first line is not `ply`");
-  for (;;) {
-    text->SkipLine();
-    const MeshWord word = text->NextInLine();
-    header.end = word;
-    if (word.text == "end_header") break;
-    if (text->AtEnd()) text->Fail(word, "the file ends within its header (valid: end_header)");
-    ReadPlyLine(word, text, &header);
-  }
-  text->SkipLine();
-  return header;
-}
-
 // A line with one vertex.
 Eigen::Vector3d NextVertex(const std::vector<PointField>& fields, const std::array<size_t, 3>& axes,
                            MeshText* text) {
@@ -116,21 +88,43 @@ void SkipLines(long count, MeshText* text) {
 
 }  // namespace
 
+const PlyElement* PlyHeader::Find(std::string_view name) const {
+  const auto found = std::find_if(elements.begin(), elements.end(),
+                                  [&](const PlyElement& e) { return e.name == name; });
+  return found == elements.end() ? nullptr : &*found;
+}
+
+PlyHeader ReadPlyHeader(MeshText* text) {
+  PlyHeader header;
+  const MeshWord first = text->NextInLine();
+  if (first.text != "ply") text->Fail(first, "the first line is not `ply`");
+  for (;;) {
+    text->SkipLine();
+    const MeshWord word = text->NextInLine();
+    header.end = word;
+    if (word.text == "end_header") break;
+    if (text->AtEnd()) text->Fail(word, "the file ends within its header (valid: end_header)");
+    ReadPlyLine(word, text, &header);
+  }
+  text->SkipLine();
+  if (header.format.empty()) text->Fail(header.end, "the header names no format");
+  if (header.Find("vertex") == nullptr) {
+    text->Fail(header.end, "the header names no `element vertex`");
+  }
+  return header;
+}
+
 LoadedPoints ReadPly(const std::string& path, std::string_view bytes) {
   MeshText text(path, bytes);
   const PlyHeader header = ReadPlyHeader(&text);
-  const std::vector<PlyElement>& elements = header.elements;
-  const auto vertices = std::find_if(elements.begin(), elements.end(),
-                                     [](const PlyElement& e) { return e.name == "vertex"; });
-  if (header.format.empty()) text.Fail(header.end, "the header names no format");
-  if (vertices == elements.end()) text.Fail(header.end, "the header names no `element vertex`");
+  const PlyElement* const vertices = header.Find("vertex");
   if (vertices->count > kMaxPoints) {
     text.Fail(header.end, "too many points (valid: at most 20 million)");
   }
   const std::array<size_t, 3> axes = PointAxes(text, header.end, vertices->fields);
   PointList points;
   if (header.format == "ascii") {
-    for (auto element = elements.begin(); element != vertices; ++element) {
+    for (const PlyElement* element = header.elements.data(); element != vertices; ++element) {
       SkipLines(element->count, &text);
     }
     for (long i = 0; i < vertices->count; ++i) {
@@ -139,7 +133,7 @@ LoadedPoints ReadPly(const std::string& path, std::string_view bytes) {
     return points.Take(path);
   }
   PointData data(path, bytes, text.offset(), header.format == "binary_big_endian");
-  for (auto element = elements.begin(); element <= vertices; ++element) {
+  for (const PlyElement* element = header.elements.data(); element <= vertices; ++element) {
     for (long i = 0; i < element->count && !element->fields.empty(); ++i) {
       const size_t begin = data.at();
       const Eigen::Vector3d p =
