@@ -13,7 +13,7 @@ namespace halfstep::replay {
 
 /// A simulated robot and what moves it, as options of `halfstep replay` and `halfstep live` say it.
 struct SimulatedRobot {
-  ReplayConfig robot;                ///< servos, ankles and torque limits; its seeds count not
+  ReplayConfig robot;                ///< servos, ankles, torque limits; `seeds` is not used
   std::optional<std::string> floor;  ///< as ParseRelief() takes it; none: level
   /// What moves the robot, by its name in `controllers`; "none": the servos get the plan itself.
   std::optional<std::string> controller = {};

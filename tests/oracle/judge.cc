@@ -4,8 +4,10 @@
 #include <cmath>
 #include <cstdio>
 
+#include "tests/oracle/judge_case.h"
 #include "tests/oracle/project_side.h"
 #include "wpg/files/input_error.h"
+#include "wpg/robot/acceleration_limits.h"
 
 namespace halfstep::oracle {
 namespace {
@@ -58,29 +60,22 @@ void Tally::Add(const Tally& other) {
   false_violated += other.false_violated;
   instants += other.instants;
   for (const auto& [name, family] : other.families) families[name].Add(family);
+  for (const auto& [name, family] : other.tubes) tubes[name].Add(family);
   missed.insert(missed.end(), other.missed.begin(), other.missed.end());
 }
 
-struct Judge::Case {
-  std::string name;
-  WalkPlan plan;
-  PlainScene plain_scene;
-  MarginLimits limits;
-  std::unique_ptr<PlacedScene> placed;
-  std::unique_ptr<MarginEvaluator> evaluator;
-  std::vector<std::string>* falsehoods = nullptr;
-
-  void Tell(const std::string& what) const { falsehoods->push_back(name + ": " + what); }
-  // With overlaps of that share of what was drawn; rests stay.
-  void Overlap(const std::vector<double>& overlaps, double share) {
-    for (size_t i = 0; i < overlaps.size(); ++i) {
-      plan.overlaps[i] = overlaps[i] < 0 ? overlaps[i] : share * overlaps[i];
+Judge::Judge(const std::string& robot_yaml, const std::string& plain_yaml, double tolerance)
+    : plain_(plain_yaml), robot_(LoadRobot(robot_yaml)), tolerance_(tolerance) {
+  // Where a robot's file states none.
+  constexpr double kAssumed = 140;  // [rad/s²]
+  AssumeAccelerationLimits(kAssumed, &robot_);
+  for (const PlainRobot::Leg& leg : plain_.legs) {
+    for (const int j : leg.joints) {
+      double& limit = plain_.joints[static_cast<size_t>(j)].acceleration;
+      if (limit == PlainRobot::kUnknown) limit = kAssumed;
     }
   }
-};
-
-Judge::Judge(const std::string& robot_yaml, const std::string& plain_yaml, double tolerance)
-    : plain_(plain_yaml), robot_(LoadRobot(robot_yaml)), tolerance_(tolerance) {}
+}
 
 double Judge::ToleranceOf(MarginFamily family) const {
   if (family == MarginFamily::kJointAcceleration) return 150 * tolerance_;
@@ -293,6 +288,16 @@ Tally Judge::JudgeOne(SceneKind kind, unsigned seed, const std::string& folder,
   // So that these are there.
   drawn.limits.demanded_of(MarginFamily::kDoubleSupport) = 0.0;
   drawn.limits.landing_speed = drawn.limits.foot_speed;
+  // One in three is demanded what the profile walkable demands, or less of it.
+  Draw further(seed ^ 0x5bd1e995u);
+  if (further.Chance(0.33)) {
+    drawn.limits.demanded_of(MarginFamily::kZmpRobot) =
+        plain_.sole_size.y() * further.Uniform(0, 0.2);
+    drawn.limits.demanded_of(MarginFamily::kFriction) = further.Uniform(0, 0.3);
+    drawn.limits.demanded_of(MarginFamily::kDoubleSupport) =
+        0.08 * std::sqrt(plain_.size()) * further.Uniform(0, 1);
+    drawn.limits.landing_speed = further.Uniform(0.2, 1);
+  }
   if (!FindFeasible(folder, &drawn, &tally)) return tally;
   RaiseOverlaps(&drawn, &tally);
   const ClosedFormWalk walk(drawn.plan);
@@ -307,6 +312,7 @@ Tally Judge::JudgeOne(SceneKind kind, unsigned seed, const std::string& folder,
   pushed.push_back(static_cast<MarginFamily>(draw.Below(static_cast<int>(MarginFamily::kOwn))));
   if (draw.Chance(0.6)) pushed.push_back(MarginFamily::kClearance);
   for (const MarginFamily family : pushed) Push(drawn, family, &truth, &tally);
+  PushTubes(drawn, &truth, &further, &tally);
   tally.instants += truth.instants();
   return tally;
 }

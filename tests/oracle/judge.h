@@ -37,13 +37,16 @@ struct Tally {
   long false_certified = 0, false_violated = 0;
   long instants = 0;                            ///< that the oracle looked at
   std::map<std::string, FamilyTally> families;  ///< by name
+  std::map<std::string, FamilyTally> tubes;     ///< what motions of a tube keep, by family
   std::vector<std::string> missed;              ///< falsified claims that the oracle did not find
   void Add(const Tally& other);
 };
 
 /// Asks the project about drawn walks and judges its answers by the oracle. A certified walk is
 /// pushed to its limit: overlaps are raised until it is refused, then what is demanded of one
-/// family after the other. The last certified and the refused answers are judged.
+/// family after the other. The last certified and the refused answers are judged. Three of the
+/// families that a tube covers are asked in tubes that widen until they are refused, and the oracle
+/// looks for a motion of the widest certified one that misses what is demanded.
 class Judge {
  public:
   /// `tolerance` [the margin's unit; of the limit where there is one]: what a sampled margin may
@@ -75,6 +78,9 @@ class Judge {
   Feasibility Ask(const Case& drawn, const MarginLimits& limits,
                   std::optional<MarginFamily> only) const;
   void Count(const Feasibility& answer, Tally* tally) const;
+  void PushTubes(const Case& drawn, WalkTruth* truth, Draw* draw, Tally* tally) const;
+  void PushTube(const Case& drawn, MarginLimits limits, MarginFamily family, WalkTruth* truth,
+                Draw* draw, Tally* tally) const;
   void Push(const Case& drawn, MarginFamily family, WalkTruth* truth, Tally* tally) const;
   double ToleranceOf(MarginFamily family) const;
 

@@ -37,6 +37,17 @@ void PrintFamilies(const Tally& all) {
                 std::string(Unit(family)).c_str());
     std::fprintf(stderr, "%s: %s\n", name.c_str(), t.where.c_str());
   }
+  std::printf(
+      "| in a tube | statements | widened to its limit | least spare [unit] | falsified, found | "
+      "unit |\n|---|---|---|---|---|---|\n");
+  for (const MarginFamily family : AllMarginFamilies()) {
+    const auto found = all.tubes.find(std::string(Name(family)));
+    if (found == all.tubes.end()) continue;
+    const FamilyTally& t = found->second;
+    std::printf("| %-18s | %8ld | %5ld | %9.2g | %ld, %ld | %s |\n", found->first.c_str(),
+                t.statements, t.pushed, t.least_spare, t.falsified, t.found,
+                std::string(Unit(family)).c_str());
+  }
 }
 
 int Run(long walks, unsigned seed, const std::string& only_robot, int only_kind) {

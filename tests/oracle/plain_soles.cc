@@ -5,6 +5,24 @@
 #include <limits>
 
 namespace halfstep::oracle {
+namespace {
+
+double FromSegment(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& p) {
+  const double s = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
+  return (p - (a + s * (b - a))).norm();
+}
+
+bool CrossingNumberIsOdd(const Polygon& polygon, const Eigen::Vector2d& p) {
+  bool odd = false;
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const Eigen::Vector2d &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    if ((a.y() > p.y()) == (b.y() > p.y())) continue;
+    if (p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) odd = !odd;
+  }
+  return odd;
+}
+
+}  // namespace
 
 double Wedge(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
@@ -71,6 +89,25 @@ double LongestLever(const std::vector<Eigen::Vector2d>& points, const Eigen::Vec
     longest = std::max(longest, lever);
   }
   return longest;
+}
+
+double Apart(const Polygon& outline, const Polygon& area) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Eigen::Vector2d& a : outline) {
+    for (const Eigen::Vector2d& b : outline) {  // edges and diagonals
+      if (a == b) continue;
+      for (size_t i = 0; i < area.size(); ++i) {
+        const Eigen::Vector2d &c = area[i], &d = area[(i + 1) % area.size()];
+        if (Wedge(b - a, c - a) * Wedge(b - a, d - a) < 0 &&
+            Wedge(d - c, a - c) * Wedge(d - c, b - c) < 0) {
+          return -1e-6;
+        }
+        least = std::min({least, FromSegment(a, b, c), FromSegment(c, d, a), FromSegment(c, d, b)});
+      }
+    }
+  }
+  const bool holds = CrossingNumberIsOdd(area, outline[0]) || InsideHull(outline, area[0]) > 0;
+  return holds ? -1e-6 : least;
 }
 
 }  // namespace halfstep::oracle

@@ -6,6 +6,8 @@
 
 namespace halfstep::oracle {
 
+using Polygon = std::vector<Eigen::Vector2d>;
+
 double Wedge(const Eigen::Vector2d& a, const Eigen::Vector2d& b);
 
 /// Corners of a sole rectangle of that size [m] at a foot's x, y, z, yaw.
@@ -29,5 +31,9 @@ double FromSole(const Eigen::Vector4d& foot, const Eigen::Vector2d& size, const 
 /// Of all lines through p along a side of the hull: how far, at most, p is from the nearer one of
 /// the two points where the line leaves the hull [m]; below 0 outside.
 double LongestLever(const std::vector<Eigen::Vector2d>& points, const Eigen::Vector2d& p);
+
+/// Distance of a convex outline, the hull of points, and a simple polygon; −1 µm when they overlap
+/// [m].
+double Apart(const Polygon& outline, const Polygon& area);
 
 }  // namespace halfstep::oracle

@@ -67,6 +67,16 @@ Demands ToDemands(const MarginLimits& limits, double friction) {
   return demands;
 }
 
+Tube ToTube(const PlainTube& tube) {
+  return {.foot = tube.foot,
+          .foot_turn = tube.foot_turn,
+          .waist = tube.waist,
+          .waist_turn = tube.waist_turn,
+          .joint = tube.joint,
+          .joint_speed = tube.joint_speed,
+          .zmp = tube.zmp};
+}
+
 std::string WriteJudgedRobot(const std::string& name, const std::string& folder) {
   const std::filesystem::path robots = HALFSTEP_SOURCE_DIR "/wpg/robots", into = folder;
   for (const std::string& part : {name, name + ".urdf"}) {
@@ -82,8 +92,8 @@ std::string WriteJudgedRobot(const std::string& name, const std::string& folder)
   yaml += "\nacceleration_limits_rad_s2:\n";
   const PlainRobot robot((robots / (name + ".yaml")).string());
   for (const PlainRobot::Leg& leg : robot.legs) {
-    for (const int joint : leg.joints) {
-      yaml += "  " + robot.joints[static_cast<size_t>(joint)].name + ": 150\n";
+    for (size_t j = 0; j < leg.joints.size(); j += 2) {
+      yaml += "  " + robot.joints[static_cast<size_t>(leg.joints[j])].name + ": 150\n";
     }
   }
   const std::string path = (into / (name + ".yaml")).string();

@@ -14,10 +14,11 @@ HalfStepSequence ToSequence(const WalkPlan& plan);
 HomotopyParameters ToParameters(const WalkPlan& plan);
 /// What the project demands, as the oracle takes it.
 Demands ToDemands(const MarginLimits& limits, double friction);
+Tube ToTube(const PlainTube& tube);
 
 /// Writes a shipped robot's file into a folder, beside links to what it names, with a limit for the
-/// torque (where its files have none) and for the acceleration of every leg joint, so that there
-/// are all families of margins. Returns its path.
+/// torque of every leg joint (where its files have none) and for the acceleration of every other
+/// one, so that there are all families of margins. Returns its path.
 std::string WriteJudgedRobot(const std::string& name, const std::string& folder);
 
 }  // namespace halfstep::oracle

@@ -67,9 +67,6 @@ WalkTruth::Instant& WalkTruth::At(double t, const std::array<Vector6, 2>& guess)
   const Eigen::Vector3d waist_velocity(v.com.x() + s * robot_.com_x * v.waist_yaw,
                                        v.com.y() - c * robot_.com_x * v.waist_yaw, 0);
   at.reaches = true;
-  at.bodies.resize(robot_.bodies.size());
-  at.centers.resize(robot_.bodies.size());
-  at.placed.assign(robot_.bodies.size(), false);
   for (int leg = 0; leg < 2; ++leg) {
     const size_t i = static_cast<size_t>(leg);
     const Eigen::Vector4d &foot = x.feet[i], &rate = v.feet[i];
@@ -86,22 +83,28 @@ WalkTruth::Instant& WalkTruth::At(double t, const std::array<Vector6, 2>& guess)
         R * (rate.head<3>() - waist_velocity - v.waist_yaw * up.cross(away));
     at.speed[i] = robot_.Jacobian(leg, at.X_BLink[i]).fullPivLu().solve(twist);
   }
-  for (size_t b = 0; b < robot_.bodies.size(); ++b) {
-    const auto [leg, j] = leg_link_[b];
-    const Eigen::Isometry3d& X = leg < 0
-                                     ? X_BUpper_[static_cast<size_t>(robot_.bodies[b].link)]
-                                     : at.X_BLink[static_cast<size_t>(leg)][static_cast<size_t>(j)];
-    at.centers[b] = at.X_WB * (X * robot_.bodies[b].center);
-  }
+  PlaceBodies(&at);
   return at;
+}
+
+void WalkTruth::PlaceBodies(Instant* at) const {
+  at->bodies.assign(robot_.bodies.size(), {});
+  at->centers.resize(robot_.bodies.size());
+  at->placed.assign(robot_.bodies.size(), false);
+  for (size_t b = 0; b < robot_.bodies.size(); ++b) {
+    at->centers[b] = at->X_WB * (LinkOf(*at, b) * robot_.bodies[b].center);
+  }
+}
+
+const Eigen::Isometry3d& WalkTruth::LinkOf(const Instant& at, size_t b) const {
+  const auto [leg, j] = leg_link_[b];
+  return leg < 0 ? X_BUpper_[static_cast<size_t>(robot_.bodies[b].link)]
+                 : at.X_BLink[static_cast<size_t>(leg)][static_cast<size_t>(j)];
 }
 
 const ConvexSet& WalkTruth::BodyAt(Instant& at, size_t b) const {
   if (at.placed[b]) return at.bodies[b];
-  const auto [leg, j] = leg_link_[b];
-  const Eigen::Isometry3d X =
-      at.X_WB * (leg < 0 ? X_BUpper_[static_cast<size_t>(robot_.bodies[b].link)]
-                         : at.X_BLink[static_cast<size_t>(leg)][static_cast<size_t>(j)]);
+  const Eigen::Isometry3d X = at.X_WB * LinkOf(at, b);
   for (const Eigen::Vector3d& p : robot_.bodies[b].points) at.bodies[b].points.push_back(X * p);
   at.placed[b] = true;
   return at.bodies[b];

@@ -13,6 +13,7 @@
 #include "tests/oracle/plain_dynamics.h"
 #include "tests/oracle/plain_robot.h"
 #include "tests/oracle/plain_scene.h"
+#include "tests/oracle/tube_motions.h"
 
 namespace halfstep::oracle {
 
@@ -55,6 +56,12 @@ class WalkTruth {
   /// The least margin of a family at one instant, of the subjects whose name fits (empty: all).
   TrueMargin At(const std::string& family, double t, const std::string& subject);
 
+  /// The least margin of a family that `tries` motions within a tube have where the plan is nearest
+  /// to its limit, and as many at any instant; two in three of them go straight towards the limit.
+  /// A ZMP that strays does so towards the nearest side, and joints that are faster are so at their
+  /// fastest. Motions of the tube have the plan's instants of contact.
+  TrueMargin InTube(const std::string& family, const PlainTube& tube, int tries, Draw* draw);
+
   /// Other demanded margins; limits stay.
   void Demand(const Demands& demands);
   const ClosedFormWalk& walk() const { return walk_; }
@@ -88,6 +95,12 @@ class WalkTruth {
   // A body as the obstacle of time t sees it, seen from where the obstacle is at the start.
   ConvexSet SeenAtStart(size_t obstacle, double t, const ConvexSet& body) const;
   const ConvexSet& BodyAt(Instant& instant, size_t body) const;
+  const Eigen::Isometry3d& LinkOf(const Instant& instant, size_t body) const;
+  void PlaceBodies(Instant* at) const;
+  Instant Displaced(const Instant& plan, const TubePosture& posture) const;
+  TrueMargin InPosture(const std::string& family, const std::string& subject,
+                       const Stretch& stretch, const PlainTube& tube, Instant& plan,
+                       Instant& moved) const;
   void AddFootStatements();
   void AddGroundStatements();
   void AddLegStatements();
