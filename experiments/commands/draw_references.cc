@@ -31,9 +31,6 @@ bool IsRobotName(const fs::path& robot) {
 
 ReferenceRequest Checked(const ReferencesCommand& command, const fs::path& folder) {
   ReferenceRequest request = command.request;
-  if (command.out.empty()) {
-    throw InputError({"draw: references: --out is missing (valid: a folder)"});
-  }
   if (request.count < 1 || request.count > kMostReferences) {
     throw InputError(
         {Formatted("--count: %d references (valid: 1 … %d)", request.count, kMostReferences)});
@@ -61,6 +58,9 @@ std::string CountsText(const std::map<std::string, int>& counts) {
 
 ExitStatus DrawReferences(const ReferencesCommand& command) {
   InterruptGuard interrupt;
+  if (command.out.empty()) {
+    throw InputError({"draw: references: --out is missing (valid: a folder)"});
+  }
   const fs::path out = fs::absolute(command.out).lexically_normal();
   const ReferenceRequest request = Checked(command, out);
   const ReferenceMaker maker(request, out);

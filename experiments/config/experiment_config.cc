@@ -151,8 +151,8 @@ void DeclareWay(Fields& fields, ExperimentConfig* c) {
               {.meaning = "in the order of stepping, at least one unless there is a `goal`",
                .max_items = 10000},
               &c->footsteps, [&](Fields& f, FootstepConfig* step) { jumps.Declare(f, step); });
-  DeclareFootstepsFile(fields, c);
-  if (c->footsteps.empty() && !c->has_goal) {
+  const bool in_file = DeclareFootstepsFile(fields, c);
+  if (!in_file && c->footsteps.empty() && !c->has_goal) {
     fields.Complain("footsteps", "there are none (valid: at least one, or a `goal`)");
   }
   if (!c->footsteps.empty() && c->has_goal) {

@@ -43,16 +43,17 @@ double Degrees(double radians) { return radians * 180.0 / std::numbers::pi; }
 
 class ReferenceDrawing {
  public:
-  ReferenceDrawing(const ReferenceNames& names, const RobotModel& robot, std::mt19937_64& random)
+  ReferenceDrawing(const ReferenceNames& names, const DrawnKind& kind, const RobotModel& robot,
+                   std::mt19937_64& random)
       : names_(names),
         robot_(robot),
         random_(random),
         scale_(StretchedLength(robot.legs[0]) / kLegLengthOfHrp2),
-        kind_(kKinds[static_cast<size_t>(Pick(static_cast<int>(kKinds.size()), random))]) {}
+        kind_(kind) {}
 
   DrawnReference Draw() {
     const double duration = std::max(kLeastDuration, Between(0.9, 2.4) * std::sqrt(scale_));
-    const double height = std::max(0.01, Between(0.4, 1.0) * DefaultHalfStep(robot_).via_height);
+    const double height = std::max(0.01, Between(0.75, 1.0) * DefaultHalfStep(robot_).via_height);
     std::string text = Formatted(
         "# %s; drawn by `halfstep draw references`\nname: %s\nrobot: %s\nscene: none\n"
         "smoothing: {methods: [%s]}\nhalf_step: {duration_s: %.3f, via_height_m: %.4f}\n",
@@ -119,9 +120,10 @@ class ReferenceDrawing {
 
 }  // namespace
 
-DrawnReference DrawReference(const ReferenceNames& names, const RobotModel& robot,
+DrawnReference DrawReference(const ReferenceNames& names, int number, const RobotModel& robot,
                              std::mt19937_64& random) {
-  return ReferenceDrawing(names, robot, random).Draw();
+  const DrawnKind& kind = kKinds[static_cast<size_t>(number - 1) % kKinds.size()];
+  return ReferenceDrawing(names, kind, robot, random).Draw();
 }
 
 }  // namespace halfstep

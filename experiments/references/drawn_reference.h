@@ -25,13 +25,13 @@ struct ReferenceNames {
   std::string method;  ///< of smoothing
 };
 
-/// Draws one of the kinds, each as often as the others; 4 to 20 footsteps (few as often as many) at
-/// an even pace; how far they lead ahead, aside and around; a duration of the half-steps of 0.9 to
-/// 2.4 s, and how high the swing foot goes, 0.4 to 1 of the default. Lengths are those of HRP-2
-/// scaled by the leg's, durations by the square root of that, all rounded to what is written. Of
-/// standing, the places of the soles and a time of 2 to 10 s. The same robot and random numbers
-/// give the same bytes.
-DrawnReference DrawReference(const ReferenceNames& names, const RobotModel& robot,
+/// Draws reference `number`, from 1, of a set: of the kinds in their order, over and over; 4 to 20
+/// footsteps (few as often as many) at an even pace; how far they lead ahead, aside and around; a
+/// duration of the half-steps of 0.9 to 2.4 s, and how high the swing foot goes, 0.75 to 1 of the
+/// default. Lengths are those of HRP-2 scaled by the leg's, durations by the square root of that,
+/// all rounded to what is written. Of standing, the places of the soles and a time of 2 to 10 s.
+/// The same robot and random numbers give the same bytes.
+DrawnReference DrawReference(const ReferenceNames& names, int number, const RobotModel& robot,
                              std::mt19937_64& random);
 
 }  // namespace halfstep

@@ -104,8 +104,13 @@ std::string ReferenceMaker::NameOf(int number) const {
 std::optional<std::string> ReferenceMaker::Certify(const DrawnReference& drawn,
                                                    const std::string& name,
                                                    const std::stop_token& stop, Walk* walk) const {
-  const ExperimentConfig config = ParseConfig((folder_ / "walks" / (name + ".yaml")).string(),
-                                              drawn.config, request_.overrides);
+  ExperimentConfig config;
+  try {
+    config = ParseConfig((folder_ / "walks" / (name + ".yaml")).string(), drawn.config,
+                         request_.overrides);
+  } catch (const InputError&) {  // what was drawn is out of the range of a key
+    return "config";
+  }
   walk->drawn = drawn;
   if (!request_.overrides.empty()) {
     walk->drawn.config = drawn.config.substr(0, drawn.config.find('\n') + 1) +
@@ -231,7 +236,7 @@ std::optional<MadeReference> ReferenceMaker::Make(int number, const std::stop_to
   for (int draw = 0; draw < kMostDraws; ++draw) {
     Walk walk;
     const DrawnReference drawn =
-        DrawReference({name, request_.robot, request_.method}, experiment_->robot, random);
+        DrawReference({name, request_.robot, request_.method}, number, experiment_->robot, random);
     const std::optional<std::string> missed = Certify(drawn, name, stop, &walk);
     if (stop.stop_requested()) return std::nullopt;
     if (missed) {

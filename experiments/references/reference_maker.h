@@ -37,10 +37,12 @@ struct ReferenceFile {
 
 /// A reference, or that none was found.
 struct MadeReference {
-  std::string row;                     ///< of index.csv, with its line break
-  std::vector<ReferenceFile> files;    ///< motions and config; none: no draw was certified
-  std::map<std::string, int> refused;  ///< draws before it that were not, by what they missed
-  bool certified = false;              ///< whether there is one
+  std::string row;                   ///< of index.csv, with its line break
+  std::vector<ReferenceFile> files;  ///< motions and config; none: no draw was certified
+  /// Draws before it that were not, by the family of margins that they missed; `undecided`; or
+  /// `config` where a number that was drawn is out of its key's range.
+  std::map<std::string, int> refused;
+  bool certified = false;  ///< whether there is one
 };
 
 /// Draws, smooths, certifies and exports references. Each depends on the request and its number

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -46,19 +47,19 @@ double Proved(const ParsedCsv& certificate, const std::string& family, bool at_s
 
 TEST(References, AreTheSameForAnyNumberOfJobsAndWhatRunsCertify) {
   const TemporaryFolder place;
-  const Outcome one = Draw(place, {"--count", "9", "--seed", "2", "--out", "a", "--jobs", "1"});
+  const Outcome one = Draw(place, {"--count", "5", "--seed", "2", "--out", "a", "--jobs", "1"});
   ASSERT_EQ(one.status, kSuccess) << one.err;
-  EXPECT_THAT(one.out, testing::AllOf(HasSubstr("wren: 9 references certified"),
+  EXPECT_THAT(one.out, testing::AllOf(HasSubstr("wren: 5 references certified"),
                                       HasSubstr("references a second of processor time"),
                                       HasSubstr("written: a\n")));
-  ASSERT_EQ(Draw(place, {"--count", "9", "--seed", "2", "--out", "b", "--jobs", "3"}).status,
+  ASSERT_EQ(Draw(place, {"--count", "5", "--seed", "2", "--out", "b", "--jobs", "3"}).status,
             kSuccess);
   const auto files = ContentsOf(place / "a");
   EXPECT_EQ(files, ContentsOf(place / "b"));
-  EXPECT_EQ(files.size(), 9u * 2 + 3);
+  EXPECT_EQ(files.size(), 5u * 2 + 3);
 
   const ParsedCsv index(files.at("index.csv"));
-  ASSERT_EQ(index.size(), 9u);
+  ASSERT_EQ(index.size(), 5u);
   const bool numpy = PythonHas("numpy");
   std::set<std::string> kinds;
   for (size_t row = 0; row < index.size(); ++row) {
@@ -93,12 +94,12 @@ TEST(References, AreTheSameForAnyNumberOfJobsAndWhatRunsCertify) {
     fs::create_directory(place / "arrays");
     EXPECT_EQ(ReadByPython(place, "arrays a/mjlab/" + name + ".npz arrays"), "");
   }
-  EXPECT_GT(kinds.size(), 3u);
+  EXPECT_EQ(kinds.size(), 5u);
 }
 
 TEST(References, StandingIsStillAndWalksGoWhereTheyAreSaidTo) {
   const TemporaryFolder place;
-  ASSERT_EQ(Draw(place, {"--count", "12", "--seed", "5", "--out", "a", "--format", "csv", "lafan1",
+  ASSERT_EQ(Draw(place, {"--count", "8", "--seed", "5", "--out", "a", "--format", "csv", "lafan1",
                          "--fps", "20"})
                 .status,
             kSuccess);
@@ -119,19 +120,20 @@ TEST(References, StandingIsStillAndWalksGoWhereTheyAreSaidTo) {
     ++standing;
     EXPECT_EQ(index.Number(row, "mean_speed_m_s"), 0.0);
     for (const std::string& column : walk.header()) {
-      if (column != "t_s") EXPECT_EQ(walk.Text(0, column), walk.Text(last, column)) << column;
+      if (column == "t_s") continue;
+      EXPECT_EQ(walk.Text(0, column), walk.Text(last, column)) << column;
     }
     const std::string frames =
         ReadText(place / ("a/lafan1/" + index.Text(row, "reference") + ".csv"));
     EXPECT_EQ(static_cast<size_t>(std::ranges::count(frames, '\n')), walk.size());
   }
-  EXPECT_GT(standing, 0);
+  EXPECT_EQ(standing, 1);
 }
 
 TEST(References, StoppedSetsGoOn) {
   const TemporaryFolder place;
   const std::vector<std::string> words = {"draw", "references", "--robot", "wren",   "--count",
-                                          "6",    "--out",      "a",       "--jobs", "1"};
+                                          "4",    "--out",      "a",       "--jobs", "1"};
   Child child(words, {.working_directory = place.path()});
   const fs::path rows = place / "a/unfinished";
   const auto begun = std::chrono::steady_clock::now();
@@ -148,12 +150,12 @@ TEST(References, StoppedSetsGoOn) {
       EXPECT_THAT(file, testing::Not(HasSubstr("partial")));
     }
     const Outcome other = Halfstep(
-        place.path(), {"draw", "references", "--robot", "wren", "--count", "7", "--out", "a"});
+        place.path(), {"draw", "references", "--robot", "wren", "--count", "5", "--out", "a"});
     EXPECT_EQ(other.status, kBadInput);
     EXPECT_THAT(other.err, HasSubstr("holds another set"));
     const Outcome rest = Halfstep(place.path(), words);
     EXPECT_EQ(rest.status, kSuccess) << rest.err;
-    EXPECT_THAT(rest.out, HasSubstr("of 6 references are done already"));
+    EXPECT_THAT(rest.out, HasSubstr("of 4 references are done already"));
   }
   std::vector<std::string> whole = words;
   whole[7] = "b";
@@ -164,19 +166,11 @@ TEST(References, StoppedSetsGoOn) {
   EXPECT_THAT(again.err, HasSubstr("a: is finished already (valid: a new folder"));
 }
 
-// Nothing that is not certified is written: here joints may hardly move.
+// Nothing that is not certified is written: no sole is so wide.
 TEST(References, WhatIsNotCertifiedIsToldAndNotWritten) {
   const TemporaryFolder place;
-  fs::copy(HALFSTEP_SOURCE_DIR "/wpg/robots", place / "robots", fs::copy_options::recursive);
-  std::string urdf = ReadText(place / "robots/wren.urdf");
-  for (size_t at = 0; (at = urdf.find("velocity=\"", at)) != std::string::npos; at += 10) {
-    const size_t end = urdf.find('"', at + 10);
-    urdf.replace(at + 10, end - at - 10, "0.01");
-  }
-  WriteText(place / "robots/wren.urdf", urdf);
   const Outcome outcome =
-      Halfstep(place.path(),
-               {"draw", "references", "--robot", "robots/wren.yaml", "--count", "2", "--out", "a"});
+      Draw(place, {"--count", "2", "--out", "a", "--set", "smoothing.margins.zmp_m=0.09"});
   EXPECT_EQ(outcome.status, kFailed);
   EXPECT_THAT(outcome.err, HasSubstr("of 2 references none of 100 draws was certified"));
   EXPECT_THAT(outcome.out, HasSubstr("0 references certified; 200 draws were not: "));
