@@ -135,14 +135,16 @@ ExitStatus Certify(const CertifyCommand& command);
 
 struct ExportCommand {
   std::vector<std::string> runs;  ///< one run folder; several for "ompl"
-  std::string format;             ///< "csv", "npz", "hrpsys", "joint_trajectory", "mjcf", "ompl"
+  std::string format;             ///< what `halfstep export -h` lists
   std::optional<std::string> method;
   std::optional<std::string> out;    ///< folder; none: RUN-FORMAT
   std::optional<double> period;      ///< between rows [s], a multiple of the run's
   std::vector<std::string> columns;  ///< globs, for csv and npz; empty: all
   TrajectoryForm form;               ///< of csv and npz
   std::vector<std::string>
-      joints;  ///< globs in joint order, hrpsys, joint_trajectory; empty: URDF's
+      joints;  ///< globs in joint order, hrpsys, joint_trajectory, lafan1; empty: URDF's
+  std::optional<int> fps;  ///< of mjlab, lafan1, json [1/s]; none: the format's
+  bool all_links = false;  ///< of mjlab, json: also links that are fixed to another
   bool overwrite = false;
   bool quiet = false;
   Toolbox tools = {};  ///< that configs may name

@@ -4,10 +4,12 @@
 #include <iostream>
 #include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/command_mistake.h"
+#include "experiments/commands/draw_references.h"
 #include "experiments/config/experiment.h"
 #include "experiments/config/random_scenes.h"
 #include "experiments/run/exit_status.h"
@@ -80,19 +82,58 @@ CommandAction DeclareDraw(CLI::App* app, const Toolbox&) {
   const auto command = std::make_shared<DrawCommand>();
   std::vector<std::string> kinds = RandomSceneNames();
   kinds.push_back("walks");
+  kinds.push_back("references");
+  const auto references = std::make_shared<ReferencesCommand>();
+  references->jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   app->add_option("WHAT", command->what,
-                  "a scene, cylinders or random_room, which is printed; or walks, a folder of "
-                  "configs and a sweep over them")
+                  "a scene, cylinders or random_room, which is printed; walks, a folder of configs "
+                  "and a sweep over them; or references, a folder of certified motions")
       ->required()
       ->check(OneOf(kinds));
-  app->add_option("--count", command->count, "obstacles (default: 40), or walks (default: 60)")
+  app->add_option("--count", command->count,
+                  "obstacles (default: 40), walks (default: 60), or references (default: 1000)")
       ->check(CLI::Range(0, 100000));
   app->add_option("--seed", command->seed, "of the draw (default: 1)")
       ->check(CLI::Range(0, 2147483647));
-  app->add_option("--out", command->out, "of walks: the folder, which must be new");
-  app->add_option("--robot", command->robot, "of walks: name or file of a robot (default: hrp2)");
+  app->add_option("--out", command->out,
+                  "of walks: the folder, which must be new; of references: a folder, or one that "
+                  "is not finished");
+  app->add_option("--robot", command->robot,
+                  "of walks and references: name or file of a robot (default: hrp2)");
+  std::vector<CLI::Option*> of_references;
+  of_references.push_back(
+      app->add_option("--format", references->request.formats,
+                      "of references, one or more: mjlab, lafan1, json, csv (default: mjlab)")
+          ->check(OneOf({"mjlab", "lafan1", "json", "csv"})));
+  of_references.push_back(app->add_option("--fps", references->request.fps,
+                                          "of references: frames a second (default: 50; lafan1: "
+                                          "30)")
+                              ->check(CLI::Range(1, 1000)));
+  of_references.push_back(app->add_option("--method", references->request.method,
+                                          "of references: of smoothing (default: dichotomy)"));
+  of_references.push_back(app->add_option("--jobs", references->jobs,
+                                          "of references: at a time (default: as many as "
+                                          "cores)")
+                              ->check(CLI::Range(1, 1024)));
+  of_references.push_back(
+      app->add_flag("--quiet", references->quiet, "of references: print nothing but errors"));
+  const auto sets = std::make_shared<std::vector<std::string>>();
+  DeclareOverrides(app, "the configs of references", sets.get());
+  of_references.push_back(app->get_option("--set"));
   const CLI::Option* count = app->get_option("--count");
-  return [command, count] {
+  return [command, references, of_references, sets, count]() -> int {
+    if (command->what == "references") {
+      references->request.robot = command->robot;
+      references->request.seed = command->seed;
+      references->request.overrides = ParseOverrides(*sets);
+      if (count->count() > 0) references->request.count = command->count;
+      references->out = command->out;
+      return DrawReferences(*references);
+    }
+    for (const CLI::Option* option : of_references) {
+      if (option->count() == 0) continue;
+      throw InputError({"draw: " + option->get_name() + " is for references"});
+    }
     if (command->what == "walks") return DrawWalks(*command);
     if (!command->out.empty()) throw InputError({"draw: --out is for walks (a scene is printed)"});
     std::cout << DrawScene(command->what, count->count() == 0 ? 40 : command->count,

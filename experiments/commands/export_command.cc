@@ -11,6 +11,8 @@
 #include "experiments/commands/commands.h"
 #include "experiments/config/experiment.h"
 #include "experiments/config/folder_name.h"
+#include "experiments/export/footstep_files.h"
+#include "experiments/export/frame_files.h"
 #include "experiments/export/hrpsys_files.h"
 #include "experiments/export/joint_trajectory.h"
 #include "experiments/export/npz_file.h"
@@ -22,6 +24,7 @@
 #include "experiments/tables/result_tables.h"
 #include "experiments/tables/run_folder.h"
 #include "experiments/tables/trajectory_match.h"
+#include "smoothing/walk/footstep_families.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/number_text.h"
 
@@ -51,7 +54,9 @@ void CheckOptions(const ExportCommand& command) {
   only_of("--columns", !command.columns.empty(), {"csv", "npz"});
   only_of("--all-joints", command.form.all_joints, {"csv", "npz"});
   only_of("--waist", command.form.waist_quaternion, {"csv", "npz"});
-  only_of("--joints", !command.joints.empty(), {"hrpsys", "joint_trajectory"});
+  only_of("--joints", !command.joints.empty(), {"hrpsys", "joint_trajectory", "lafan1"});
+  only_of("--fps", command.fps.has_value(), {"mjlab", "lafan1", "json"});
+  only_of("--all-links", command.all_links, {"mjlab", "json"});
   if (command.out && command.out->empty()) Refuse("--out: no folder is named (valid: a path)");
 }
 
@@ -85,7 +90,9 @@ class WalkExport {
         joints_(OrderedJoints(whole_.tree, command.joints)),
         folder_(*folder) {
     if (command.format == "mjcf") obstacles_ = Obstacles();
+    frames_ = FindFrameFormat(command.format);
     if (IsOfMotion()) experiment_ = Prepare(config_);
+    if (frames_ != nullptr) bodies_.emplace(RobotPath(config_).string());
   }
 
   void Write(const std::string& method) {
@@ -105,9 +112,13 @@ class WalkExport {
   }
 
  private:
-  // Formats that need the walk itself, for derivatives.
+  // Formats that need the walk itself, for derivatives or where its feet stand.
   bool IsOfMotion() const {
-    return command_.format == "mjcf" || command_.format == "joint_trajectory";
+    return frames_ != nullptr || IsOfFootsteps() || command_.format == "mjcf" ||
+           command_.format == "joint_trajectory";
+  }
+  bool IsOfFootsteps() const {
+    return command_.format == "footsteps" || command_.format == "humanoid_nav_msgs";
   }
   // Between the rows of a trajectory.csv [s].
   double PeriodOf(const std::string& trajectory) const {
@@ -145,6 +156,8 @@ class WalkExport {
       Refuse(trajectory + ": is not of the walk that config and tables make: " + mismatch +
              " (valid: a run as it was written)");
     }
+    if (IsOfFootsteps()) return WriteFootsteps(name, walk);
+    if (frames_ != nullptr) return WriteFrames(name, walk, trajectory);
     const std::vector<JointMotion> motion =
         MotionOfRows(whole_.model, walk, rows, stride_, trajectory);
     if (command_.format == "mjcf") {
@@ -154,6 +167,21 @@ class WalkExport {
       folder_.Write(name + ".yaml",
                     JointTrajectoryYaml(whole_.model, whole_.tree, joints_, motion));
     }
+  }
+
+  void WriteFootsteps(const std::string& name, const SuperposedWalk& walk) {
+    const HalfStepSequence steps = WithFootsteps(experiment_->sequence, walk.parameters());
+    if (command_.format == "footsteps") return WriteCsv(name, FootstepsCsv(steps), &folder_);
+    folder_.Write(name + ".yaml", StepTargetsYaml(steps));
+  }
+
+  void WriteFrames(const std::string& name, const SuperposedWalk& walk, const std::string& path) {
+    const FrameFileOptions options{.fps = command_.fps.value_or(frames_->fps),
+                                   .joints = joints_,
+                                   .all_links = command_.all_links};
+    folder_.Write(
+        name + frames_->ending,
+        FrameFile(*frames_, *bodies_, FramesOf(*bodies_, walk, options.fps, path), options, path));
   }
 
   const ExportCommand& command_;
@@ -166,6 +194,8 @@ class WalkExport {
   size_t stride_ = 1;
   std::vector<replay::SimulatedObstacle> obstacles_;
   std::optional<Experiment> experiment_;
+  const FrameFormat* frames_ = nullptr;  // null: a format of something else
+  std::optional<BodyMotion> bodies_;     // of such a format
 };
 
 }  // namespace
@@ -201,9 +231,13 @@ CommandAction DeclareExport(CLI::App* app, const Toolbox& tools) {
   app->add_option("--format", command->format,
                   "csv: columns of trajectory.csv; npz: the same as NumPy arrays; hrpsys: files of "
                   "its SequencePlayer; joint_trajectory: ROS' trajectory_msgs/JointTrajectory as "
-                  "YAML; mjcf: robot, obstacles and keyframes for MuJoCo; ompl: benchmark logs")
+                  "YAML; mjcf: robot, obstacles and keyframes for MuJoCo; mjlab: motion of joints "
+                  "and bodies as mjlab and BeyondMimic load it; lafan1: CSV of the retargeted "
+                  "LAFAN1; json: the same with names; footsteps: CSV; humanoid_nav_msgs: "
+                  "StepTargets as YAML; ompl: benchmark logs")
       ->required()
-      ->check(OneOf({"csv", "npz", "hrpsys", "joint_trajectory", "mjcf", "ompl"}));
+      ->check(OneOf({"csv", "npz", "hrpsys", "joint_trajectory", "mjcf", "mjlab", "lafan1", "json",
+                     "footsteps", "humanoid_nav_msgs", "ompl"}));
   app->add_option("--method", command->method, "only this one (default: all)");
   app->add_option("--out", command->out, "folder (default: RUN-FORMAT)");
   app->add_option("--period", command->period,
@@ -217,8 +251,13 @@ CommandAction DeclareExport(CLI::App* app, const Toolbox& tools) {
                   "(default: yaw)")
       ->check(OneOf({"yaw", "quaternion"}));
   app->add_option("--joints", command->joints,
-                  "hrpsys, joint_trajectory: patterns of joints in their order (default: the "
-                  "URDF's)");
+                  "hrpsys, joint_trajectory, lafan1: patterns of joints in their order (default: "
+                  "the URDF's)");
+  app->add_option("--fps", command->fps,
+                  "mjlab, lafan1, json: frames a second (default: 50; lafan1: 30)")
+      ->check(CLI::Range(1, 1000));
+  app->add_flag("--all-links", command->all_links,
+                "mjlab, json: also links that are fixed to another");
   app->add_flag("--overwrite", command->overwrite, "replace an older export");
   app->add_flag("--quiet", command->quiet, "print nothing but errors");
   return [command, waist] {

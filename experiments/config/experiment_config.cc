@@ -10,6 +10,7 @@
 #include "experiments/config/data_folder.h"
 #include "experiments/config/experiment.h"
 #include "experiments/config/folder_name.h"
+#include "experiments/config/footsteps_key.h"
 #include "experiments/config/scaled_defaults.h"
 #include "smoothing/margins/family_traits.h"
 #include "wpg/elementary.h"
@@ -150,7 +151,8 @@ void DeclareWay(Fields& fields, ExperimentConfig* c) {
               {.meaning = "in the order of stepping, at least one unless there is a `goal`",
                .max_items = 10000},
               &c->footsteps, [&](Fields& f, FootstepConfig* step) { jumps.Declare(f, step); });
-  if (c->footsteps.empty() && !c->has_goal) {
+  const bool in_file = DeclareFootstepsFile(fields, c);
+  if (!in_file && c->footsteps.empty() && !c->has_goal) {
     fields.Complain("footsteps", "there are none (valid: at least one, or a `goal`)");
   }
   if (!c->footsteps.empty() && c->has_goal) {

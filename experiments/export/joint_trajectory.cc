@@ -3,23 +3,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "wpg/files/number_text.h"
+#include "experiments/export/message_float.h"
 #include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
-
-// A float64 of a message: with a point or an exponent, so that no reader takes it for an integer.
-std::string MessageFloat(double value) {
-  std::string text = ShortestText(value);
-  if (text.find_first_of(".e") == std::string::npos) text += ".0";
-  // YAML 1.1 knows an exponent only behind a point.
-  const size_t exponent = text.find('e');
-  if (exponent != std::string::npos && text.find('.') == std::string::npos) {
-    text.insert(exponent, ".0");
-  }
-  return text;
-}
 
 std::string FloatList(const std::vector<double>& by_joint, const std::vector<int>& joints) {
   std::string text = "[";
