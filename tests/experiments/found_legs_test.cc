@@ -25,7 +25,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
-const fs::path kRobots = fs::path(HALFSTEP_SOURCE_DIR) / "wpg" / "robots";
+const fs::path kDrawnRobots = fs::path(HALFSTEP_SOURCE_DIR) / "wpg" / "robots";
 
 // One joint of a limb: where it is, seen from the one before, and about which axis it turns.
 struct Turn {
@@ -47,7 +47,7 @@ std::string Limb(const std::string& prefix, const std::string& on, const std::ve
   return text;
 }
 
-std::string Robot(const std::string& limbs) {
+std::string RobotOf(const std::string& limbs) {
   return "<robot name='drawn'><link name='pelvis'/>" + limbs + "</robot>";
 }
 
@@ -63,7 +63,7 @@ std::vector<Turn> Arm(const std::string& y) {
           {"y", "0 0 -0.2", "0 0 1"},        {"z", "0 0 -0.3", "1 0 0"}};
 }
 
-std::string Refusal(const std::string& urdf) {
+std::string RefusalOfLegs(const std::string& urdf) {
   const UrdfTree tree = ParseUrdf("robot.urdf", urdf);
   return RefusalOf([&] { (void)FindLegs(tree, {}); });
 }
@@ -82,7 +82,7 @@ TEST(FoundLegs, AreNotArmsThatHangLowerThanFoldedLegs) {
   const std::string arms = Limb("l", "pelvis", Arm("0.3")) + Limb("r", "pelvis", Arm("-0.3"));
   const std::string legs =
       Limb("l", "pelvis", FoldedLeg("0.1")) + Limb("r", "pelvis", FoldedLeg("-0.1"));
-  for (const std::string& urdf : {Robot(arms + legs), Robot(legs + arms)}) {
+  for (const std::string& urdf : {RobotOf(arms + legs), RobotOf(legs + arms)}) {
     EXPECT_THAT(FirstLeg(urdf), ElementsAre("la", "lb", "lc", "ld", "le", "lf"));
   }
 }
@@ -96,7 +96,8 @@ TEST(FoundLegs, AreNotThereWhereOnlyArmsAre) {
     return arm;
   };
   EXPECT_THAT(
-      Refusal(Robot(Limb("left", "pelvis", named("0.3")) + Limb("right", "pelvis", named("-0.3")))),
+      RefusalOfLegs(
+          RobotOf(Limb("left", "pelvis", named("0.3")) + Limb("right", "pelvis", named("-0.3")))),
       HasSubstr("are arms by their names (left_shoulder_p, left_shoulder_r, left_shoulder_y, "
                 "left_elbow, left_wrist_y, left_wrist_r): there are no two legs"));
 }
@@ -107,8 +108,8 @@ TEST(FoundLegs, MayHaveToes) {
     leg.push_back({"toes", "0.1 0 -0.05", "0 1 0"});
     return leg;
   };
-  const UrdfTree tree = ParseUrdf("robot.urdf", Robot(Limb("l", "pelvis", with_toes("0.1")) +
-                                                      Limb("r", "pelvis", with_toes("-0.1"))));
+  const UrdfTree tree = ParseUrdf("robot.urdf", RobotOf(Limb("l", "pelvis", with_toes("0.1")) +
+                                                        Limb("r", "pelvis", with_toes("-0.1"))));
   const FoundLegs legs = FindLegs(tree, {});
   EXPECT_THAT(legs.beyond, ElementsAre("ltoes", "rtoes"));
   EXPECT_EQ(tree.links[static_cast<size_t>(legs.feet[0])].name, "lf_link");
@@ -122,7 +123,7 @@ TEST(FoundLegs, OfTwoKneesAreRefusedByTheirNames) {
                  {"d2", "0.05 0 0", "0 1 0", mimics ? "<mimic joint='" + side + "d'/>" : ""});
       return Limb(side, "pelvis", leg);
     };
-    EXPECT_THAT(Refusal(Robot(knees("l", "0.1") + knees("r", "-0.1"))),
+    EXPECT_THAT(RefusalOfLegs(RobotOf(knees("l", "0.1") + knees("r", "-0.1"))),
                 AllOf(HasSubstr("a leg of it has 7 moving joints (la, lb, lc, ld, ld2, le, lf): "
                                 "the knee is two joints, "),
                       HasSubstr(mimics ? "ld2 mimics ld (valid: 6"
@@ -134,7 +135,7 @@ TEST(FoundLegs, ThatDifferAreToldByTheirJoints) {
   std::vector<Turn> shorter = FoldedLeg("-0.1");
   shorter.pop_back();
   EXPECT_THAT(
-      Refusal(Robot(Limb("l", "pelvis", FoldedLeg("0.1")) + Limb("r", "pelvis", shorter))),
+      RefusalOfLegs(RobotOf(Limb("l", "pelvis", FoldedLeg("0.1")) + Limb("r", "pelvis", shorter))),
       HasSubstr("one of its legs has 6 moving joints (la, lb, lc, ld, le, lf), the other one 5 "
                 "moving joints (ra, rb, rc, rd, re): they are no mirror images (valid: 6 each)"));
 }
@@ -142,7 +143,7 @@ TEST(FoundLegs, ThatDifferAreToldByTheirJoints) {
 TEST(FoundLegs, OfFewJointsAreNamed) {
   std::vector<Turn> left = FoldedLeg("0.1"), right = FoldedLeg("-0.1");
   left.resize(4), right.resize(4);
-  EXPECT_THAT(Refusal(Robot(Limb("l", "pelvis", left) + Limb("r", "pelvis", right))),
+  EXPECT_THAT(RefusalOfLegs(RobotOf(Limb("l", "pelvis", left) + Limb("r", "pelvis", right))),
               HasSubstr("a leg of it has 4 moving joints (la, lb, lc, ld), so the foot cannot be "
                         "put everywhere (valid: 6)"));
 }
@@ -150,7 +151,7 @@ TEST(FoundLegs, OfFewJointsAreNamed) {
 // A shipped robot whose knees are two joints, its meshes nowhere: none is read.
 TEST(FoundLegs, AreRefusedBeforeAnyMeshIsRead) {
   const TemporaryFolder place;
-  std::string urdf = ReadText(kRobots / "wren.urdf");
+  std::string urdf = ReadText(kDrawnRobots / "wren.urdf");
   for (const std::string side : {"left", "right"}) {
     urdf = Replaced(urdf, "<parent link=\"" + side + "_knee_link\"",
                     "<parent link=\"" + side + "_calf\"");
@@ -174,7 +175,7 @@ TEST(FoundLegs, AreRefusedBeforeAnyMeshIsRead) {
 TEST(FoundLegs, CountAJointWhoseLimitsAreMissing) {
   const TemporaryFolder place;
   std::string urdf =
-      Robot(Limb("l", "pelvis", FoldedLeg("0.1")) + Limb("r", "pelvis", FoldedLeg("-0.1")));
+      RobotOf(Limb("l", "pelvis", FoldedLeg("0.1")) + Limb("r", "pelvis", FoldedLeg("-0.1")));
   urdf = Replaced(urdf, "<limit lower='-2' upper='2' velocity='5' effort='50'/>", "");
   const RobotSurvey survey = SurveyRobot({.urdf = WriteText(place / "robot.urdf", urdf)});
   ASSERT_EQ(survey.refused.size(), 1u);
@@ -183,7 +184,7 @@ TEST(FoundLegs, CountAJointWhoseLimitsAreMissing) {
 
 TEST(RobotSurvey, TakesTheNameOfTheRobotAndTheFilesNameOfTheFile) {
   const TemporaryFolder place;
-  const std::string urdf = Robot("");  // which is refused later
+  const std::string urdf = RobotOf("");  // which is refused later
   const auto draft_of = [&](const std::string& text, const std::string& name) {
     return SurveyRobot({.urdf = WriteText(place / "v1.urdf", text), .name = name}).draft;
   };

@@ -17,14 +17,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kRobots = fs::path(HALFSTEP_SOURCE_DIR) / "wpg" / "robots";
+const fs::path kRobotFiles = fs::path(HALFSTEP_SOURCE_DIR) / "wpg" / "robots";
 
 // Wren, whose root is its waist, by another URDF and with another name of the waist.
 WholeRobot Wren(const std::string& urdf, const std::string& waist) {
   const TemporaryFolder place;
   WriteText(place / "wren.urdf", urdf);
-  std::string yaml = Replaced(ReadText(kRobots / "wren.yaml"), "wren_bodies: ./wren",
-                              "wren_bodies: " + (kRobots / "wren").string());
+  std::string yaml = Replaced(ReadText(kRobotFiles / "wren.yaml"), "wren_bodies: ./wren",
+                              "wren_bodies: " + (kRobotFiles / "wren").string());
   yaml = Replaced(yaml, "waist_link: trunk", "waist_link: " + waist);
   return LoadWholeRobot(WriteText(place / "wren.yaml", yaml));
 }
@@ -35,7 +35,7 @@ double WeightInSimulation(const WholeRobot& whole, const std::string& waist) {
 
 TEST(ReplayRoots, MayHaveAnyNameAndHangOnAWorld) {
   if (!WhyNoSimulation().empty()) GTEST_SKIP() << WhyNoSimulation();
-  const std::string urdf = ReadText(kRobots / "wren.urdf");
+  const std::string urdf = ReadText(kRobotFiles / "wren.urdf");
   const WholeRobot wren = Wren(urdf, "trunk");
   const double weight = 9.81 * wren.model.mass;
   const auto renamed = [&urdf](const std::string& root) {

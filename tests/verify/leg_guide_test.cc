@@ -14,7 +14,7 @@ namespace halfstep::verify {
 namespace {
 
 // HRP-2 with hip and ankle axes that miss each other.
-RobotModel Offset(RobotModel robot) {
+RobotModel WithOffsetLegs(RobotModel robot) {
   for (Leg& leg : robot.legs) {
     leg.met = {leg};
     leg.joints[0].point_B.x() += 0.02;
@@ -24,7 +24,7 @@ RobotModel Offset(RobotModel robot) {
 }
 
 // Borrows the robot.
-DescribedWalk WalkOf(const RobotModel& robot) {
+DescribedWalk DescribedBy(const RobotModel& robot) {
   const SuperposedWalk walk(Fig5().sequence, PlannedMotion(Fig5().sequence));
   return DescribedWalk(robot, PlanOf(Fig5().sequence), RowsOf(walk));
 }
@@ -46,8 +46,8 @@ void ExpectAnglesFoundAlone(const DescribedWalk& walk, double from) {
 }
 
 TEST(LegGuide, LeadsToTheAnglesThatAreFoundAlone) {
-  const RobotModel robot = Offset(Fig5().robot);
-  const DescribedWalk walk = WalkOf(robot);
+  const RobotModel robot = WithOffsetLegs(Fig5().robot);
+  const DescribedWalk walk = DescribedBy(robot);
   ExpectAnglesFoundAlone(walk, 0.0);
   const int last = walk.num_half_steps() - 2;
   const DescribedWalk branch = walk.StopBranch(last);
@@ -55,23 +55,23 @@ TEST(LegGuide, LeadsToTheAnglesThatAreFoundAlone) {
 }
 
 TEST(LegGuide, IsEmptyWhereThereIsAClosedForm) {
-  const DescribedWalk walk = WalkOf(Fig5().robot);
+  const DescribedWalk walk = DescribedBy(Fig5().robot);
   EXPECT_TRUE(walk.NearAngles(1.0)[0].array().isNaN().all());
 }
 
 // A leg that does not reach, for all of the walk or the part before the robot sinks, has no angles.
 TEST(LegGuide, KnowsNothingWhereALegDoesNotReach) {
-  RobotModel robot = Offset(Fig5().robot);
+  RobotModel robot = WithOffsetLegs(Fig5().robot);
   robot.waist_height += 0.5;
-  const DescribedWalk walk = WalkOf(robot);
+  const DescribedWalk walk = DescribedBy(robot);
   EXPECT_TRUE(walk.NearAngles(1.0)[1].array().isNaN().all());
   EXPECT_TRUE(walk.Row(1.0).q[1].array().isNaN().all());
 }
 
 // Near angles are a start only: of others than those of the motion nothing is taken.
 TEST(AnglesOf, TakesNothingOfAnglesThatAreNotNear) {
-  const RobotModel robot = Offset(Fig5().robot);
-  const DescribedWalk walk = WalkOf(robot);
+  const RobotModel robot = WithOffsetLegs(Fig5().robot);
+  const DescribedWalk walk = DescribedBy(robot);
   const WalkNumbers x = walk.At(1.1).value;
   const RobotPosture alone = PostureOf(robot, x);
   std::mt19937 random(6);
@@ -92,8 +92,8 @@ TEST(AnglesOf, TakesNothingOfAnglesThatAreNotNear) {
 }
 
 TEST(RecentInstants, SayWhatTheWalkSays) {
-  const RobotModel robot = Offset(Fig5().robot);
-  const DescribedWalk walk = WalkOf(robot);
+  const RobotModel robot = WithOffsetLegs(Fig5().robot);
+  const DescribedWalk walk = DescribedBy(robot);
   RecentInstants recent(walk);
   for (int k = 0; k < 40; ++k) {
     const double t = 0.1 * (k % 11);  // more than are remembered
