@@ -93,7 +93,7 @@ std::vector<Scenario> Scenarios() {
       {"Bake", WritePlanConfig, {"bake", "plan.yaml"}, "cache", false, ".parts"},
       {"Plan", WritePlanConfig, {"plan", "plan.yaml"}, "cache", false, "/cache"},
       {"Sweep", WriteSweep, {"sweep", "sweep.yaml", "--out", "s", "--jobs", "1"}, "s", false},
-      {"Scene", WriteRoom, {"scene", "room.scene", "--out", "o/r.yaml", "--overwrite"}, "o"},
+      {"Scene", WriteRoom, {"scene", "room.scene", "--out", "r.yaml", "--overwrite"}, "."},
       {"Draw", [](const fs::path&) {}, {"draw", "cylinders", "--count", "3"}, "."},
   };
   if (HasReport()) {
