@@ -255,7 +255,7 @@ TEST_F(ExportFormats, SayWhatIsWrong) {
   EXPECT_THAT(refusal({"joint_trajectory", "--waist", "quaternion"}),
               HasSubstr("--waist: not of --format joint_trajectory (valid: csv, npz)"));
   EXPECT_THAT(refusal({"npz", "--joints", "RLEG*"}),
-              HasSubstr("--joints: not of --format npz (valid: hrpsys, joint_trajectory)"));
+              HasSubstr("--joints: not of --format npz (valid: hrpsys, joint_trajectory, lafan1)"));
   EXPECT_THAT(refusal({"npz", "--columns", "zmq*"}), HasSubstr("--columns: zmq*: no such column"));
   EXPECT_THAT(refusal({"mjcf", "--period", "0.013"}),
               HasSubstr("--period 0.013: is no multiple of the run's output.period_s"));
