@@ -73,8 +73,7 @@ void WriteSweep(const fs::path& place) {
 }
 
 void WriteRoom(const fs::path& place) {
-  WriteText(place / "room.scene",
-            "room\n* crate\n1\nbox\n1 1 1\n2 0 0.5\n0 0 0 1\n0 0 0 0\n.\n");
+  WriteText(place / "room.scene", "room\n* crate\n1\nbox\n1 1 1\n2 0 0.5\n0 0 0 1\n0 0 0 0\n.\n");
 }
 
 bool EveryCall() {
