@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-double Draw(double lower, double upper, std::mt19937* random) {
+double Between(double lower, double upper, std::mt19937* random) {
   return std::uniform_real_distribution<double>(lower, upper)(*random);
 }
 
@@ -33,7 +33,8 @@ std::vector<TriangleMesh> Corridor(double cover, bool turned_at_will, std::mt199
   const int count = static_cast<int>(cover * 2 * 8 * 2.6 / 0.01);
   for (int i = 0; i < count; ++i) {
     const double side = i % 2 == 0 ? -1.0 : 1.0;
-    const Vector3d at(Draw(-4, 4, random), side + Draw(-1e-3, 1e-3, random), Draw(0, 2.5, random));
+    const Vector3d at(Between(-4, 4, random), side + Between(-1e-3, 1e-3, random),
+                      Between(0, 2.5, random));
     const bool turned = turned_at_will ? i % 3 == 0 : side > 0;
     pieces.push_back(Square(at, {0.1, 0, 0}, {0, 0, 0.1}, turned));
   }
@@ -47,7 +48,8 @@ TEST(OpenPatches, AnswersAreThoseOfAllWindingsOneByOne) {
     for (const bool turned_at_will : {false, true}) {
       const OpenPatches patches(Corridor(cover, turned_at_will, &random));
       for (int i = 0; i < 40; ++i) {
-        const Vector3d p(Draw(-5, 5, &random), Draw(-1.3, 1.3, &random), Draw(-0.3, 3, &random));
+        const Vector3d p(Between(-5, 5, &random), Between(-1.3, 1.3, &random),
+                         Between(-0.3, 3, &random));
         const bool contained = patches.Contain(p);
         ASSERT_EQ(contained, patches.ContainOneByOne(p)) << cover << ": " << p.transpose();
         ++(contained ? inside : outside);
@@ -65,17 +67,18 @@ TEST(OpenPatches, AnswersAreThoseOfAllWindingsForOpenBoxes) {
   for (int k = 0; k < 30; ++k) {
     std::vector<TriangleMesh> boxes;
     for (int i = 0; i < 8; ++i) {
-      TriangleMesh box = FacesOf(MakeBox({Draw(0.1, 1, &random), Draw(0.1, 1, &random), 0.5}));
+      TriangleMesh box =
+          FacesOf(MakeBox({Between(0.1, 1, &random), Between(0.1, 1, &random), 0.5}));
       box.vertices.colwise() +=
-          Vector3d(Draw(-1, 1, &random), Draw(-1, 1, &random), Draw(-1, 1, &random));
+          Vector3d(Between(-1, 1, &random), Between(-1, 1, &random), Between(-1, 1, &random));
       box.triangles.conservativeResize(3, box.triangles.cols() - 1 - i % 4);
       if (i % 2 == 0) box.triangles.row(1).swap(box.triangles.row(2));
       boxes.push_back(std::move(box));
     }
     const OpenPatches patches(std::move(boxes));
     for (int i = 0; i < 40; ++i) {
-      const Vector3d p(Draw(-1.5, 1.5, &random), Draw(-1.5, 1.5, &random),
-                       Draw(-1.5, 1.5, &random));
+      const Vector3d p(Between(-1.5, 1.5, &random), Between(-1.5, 1.5, &random),
+                       Between(-1.5, 1.5, &random));
       const bool contained = patches.Contain(p);
       ASSERT_EQ(contained, patches.ContainOneByOne(p)) << k << ": " << p.transpose();
       inside += contained ? 1 : 0;
@@ -92,7 +95,8 @@ TEST(OpenPatches, FewAreAskedForInTheMiddleOfAScannedRoom) {
   long asked = 0;
   for (int i = 0; i < 100; ++i) {
     int here = 0;
-    const Vector3d p(Draw(-3, 3, &random), Draw(-0.5, 0.5, &random), Draw(0.3, 2, &random));
+    const Vector3d p(Between(-3, 3, &random), Between(-0.5, 0.5, &random),
+                     Between(0.3, 2, &random));
     patches.Contain(p, &here);
     asked += here;
   }

@@ -233,7 +233,7 @@ TEST(ServedEpisode, ThePageAndItsMessagesAreWhereTheAddressSays) {
   web.Send(Get(base + "socket", served.host()) + kUpgrade + origin + end);
   EXPECT_THAT(web.ReadPast("\r\n\r\n"), HasSubstr("101"));
   EXPECT_EQ(json::parse(ReadFrame(&web))["type"], "hello");
-  web.Send(Frame(R"({"type":"sing"})"));
+  web.Send(MaskedFrame(R"({"type":"sing"})"));
   std::string text;
   while ((text = ReadFrame(&web)).find("\"error\"") == std::string::npos) ASSERT_NE(text, "");
   EXPECT_THAT(text, HasSubstr("'sing' is not taken here"));

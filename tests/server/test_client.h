@@ -138,7 +138,7 @@ inline constexpr char kUpgrade[] =
     "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n";
 
 /// A frame of a WebSocket's client with the mask 0; `first`: 0x81 is a whole text message.
-inline std::string Frame(std::string_view payload, unsigned char first = 0x81) {
+inline std::string MaskedFrame(std::string_view payload, unsigned char first = 0x81) {
   std::string frame(1, static_cast<char>(first));
   if (payload.size() < 126) {
     frame += static_cast<char>(0x80 | payload.size());
