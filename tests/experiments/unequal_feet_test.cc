@@ -8,6 +8,7 @@
 
 #include "experiments/commands/commands.h"
 #include "experiments/survey/robot_survey.h"
+#include "tests/experiments/child_process.h"
 #include "tests/experiments/run_check.h"
 #include "tests/replaced.h"
 #include "tests/temporary_folder.h"
