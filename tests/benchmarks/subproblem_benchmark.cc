@@ -13,7 +13,7 @@
 #include "opt/solvers/elastic_subproblem.h"
 #include "smoothing/methods/dichotomy.h"
 #include "smoothing/methods/overlap_optimizer.h"
-#include "smoothing/methods/search_rounds.h"
+#include "smoothing/methods/search_tuning.h"
 #include "smoothing/proof/certified_feasibility.h"
 #include "tests/smoothing/smoothed.h"
 
@@ -36,13 +36,16 @@ void Subproblem(benchmark::State& state, const char* config) {
   options.program.parameters = EveryFamily();
   options.program.parameters.footsteps = false;
   const auto solver = opt::MakeSolver("halfstep/sqp");
-  options.program.watch =
-      RowsFor(solver->traits(), test, options.program.watch.instants, options.program.watch);
+  options.program.watch.row_per_instant = true;
+  options.program.watch.sharpness = options.tuning.sharpness;
+  options.program.watch.instants = options.tuning.instants;
   const OverlapProgram program(e.sequence, evaluator, options.program,
                                DurationOf(start.parameters));
   const opt::Problem problem = program.MakeProblem();
-  const opt::SolverOptions first =
-      RoundOptions(solver->traits(), ProgramKind::kFastest, kIterations);
+  opt::SolverOptions first;
+  first.max_iterations = kIterations;
+  first.optimality_tolerance = 1e-4;
+  first.solver_options = solver->traits().nearly_linear;
   const Eigen::VectorXd x =
       solver->Solve(problem, program.ToVariables(start.parameters), first).final_x;
   const std::vector<double> jacobian = problem.Jacobian(x);

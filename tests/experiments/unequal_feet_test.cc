@@ -168,7 +168,9 @@ TEST(SurveyedSoles, MayBeStated) {
   const auto refused = [&](const std::string& shapes, const std::optional<StatedSoles>& soles) {
     const RobotSurvey survey = SurveyRobot(
         {.urdf = WriteText(place / "robot.urdf", WithFeet(urdf, shapes)), .soles = soles});
-    if (survey.refused.empty()) EXPECT_EQ(ModelOf(survey.draft).sole_size.x(), 0.15);
+    if (survey.refused.empty()) {
+      EXPECT_EQ(ModelOf(survey.draft).sole_size.x(), 0.15);
+    }
     return survey.refused.empty() ? "" : survey.refused[0];
   };
   const std::string one_ball =
