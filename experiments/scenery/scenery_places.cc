@@ -1,10 +1,9 @@
 #include "experiments/scenery/scenery_places.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <stdexcept>
-#include <string_view>
 
+#include "wpg/files/ros_package_path.h"
 #include "wpg/files/text.h"
 
 namespace halfstep {
@@ -15,13 +14,8 @@ namespace fs = std::filesystem;
 // Folders in which a package or model may lie, or which may be it.
 std::vector<fs::path> PlacesToLook(const std::vector<fs::path>& models, const fs::path& from) {
   std::vector<fs::path> places = models;
-  if (const char* paths = std::getenv("ROS_PACKAGE_PATH")) {
-    for (std::string_view rest = paths; !rest.empty();) {
-      const size_t end = std::min(rest.find(':'), rest.size());
-      if (end > 0) places.emplace_back(rest.substr(0, end));
-      rest.remove_prefix(std::min(end + 1, rest.size()));
-    }
-  }
+  const std::vector<fs::path> of_ros = RosPackagePath();
+  places.insert(places.end(), of_ros.begin(), of_ros.end());
   std::error_code ignored;
   fs::path above = fs::absolute(from, ignored).lexically_normal().parent_path();
   for (; above.has_relative_path(); above = above.parent_path()) {

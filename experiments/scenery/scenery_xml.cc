@@ -10,40 +10,48 @@
 #include "experiments/scenery/scenery_shapes.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/mesh_text.h"
-#include "wpg/files/nesting.h"
 #include "wpg/files/number_text.h"
 #include "wpg/files/text.h"
+#include "wpg/files/xml_document.h"
 #include "wpg/nth.h"
 #include "wpg/robot/urdf_elements.h"
 
 namespace halfstep {
 
 void ParseSceneryXml(const std::string& path, const std::string& text, TiXmlDocument* document) {
-  const auto refuse = [&](int row, int column, const std::string& what) {
-    Complaints complaints;
-    complaints.Add(path, row, column, "", what);
-    throw InputError(complaints.lines());
-  };
-  if (XmlDepth(text) > kMostXmlLevels) {
-    refuse(0, 0,
-           Formatted("nests too deeply, or its XML declaration is not plain (valid: at most %d "
-                     "levels)",
-                     kMostXmlLevels));
-  }
   if (const size_t entity = text.find("<!ENTITY"); entity != std::string::npos) {
     const std::string_view before = std::string_view(text).substr(0, entity);
     const auto line = std::count(before.begin(), before.end(), '\n') + 1;
-    refuse(static_cast<int>(line), 0, "declares entities, which nothing here expands");
+    Complaints complaints;
+    complaints.Add(path, static_cast<int>(line), 0, "",
+                   "declares entities, which nothing here expands");
+    throw InputError(complaints.lines());
   }
-  document->Parse(text.c_str(), nullptr, TIXML_ENCODING_UTF8);
-  if (document->Error()) refuse(document->ErrorRow(), document->ErrorCol(), document->ErrorDesc());
-  if (document->RootElement() == nullptr) refuse(1, 1, "there is no element in the file");
+  ParseXml(path, text, document);
 }
 
 void SceneryElements::Fail(const TiXmlElement& at, const std::string& what) const {
   Complaints complaints;
   complaints.Add(path_, at.Row(), at.Column(), at.ValueStr(), what);
   throw InputError(complaints.lines());
+}
+
+bool SceneryElements::TakeSolid(const TiXmlElement& shape, const TextOfSize& text_of,
+                                SceneryThing* thing) const {
+  const auto size = [&](const char* name) { return Size(shape, text_of(name)); };
+  const std::string& kind = shape.ValueStr();
+  if (kind == "box") {
+    thing->shape = Box{Sizes(shape, text_of("size"))};
+  } else if (kind == "sphere") {
+    thing->shape = Sphere{size("radius")};
+  } else if (kind == "cylinder") {
+    thing->shape = Cylinder{size("radius"), size("length")};
+  } else if (kind == "capsule") {
+    thing->shape = Capsule{size("radius"), size("length")};
+  } else {
+    return false;
+  }
+  return true;
 }
 
 Eigen::VectorXd SceneryElements::Numbers(const TiXmlElement& at, const std::string& text,

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -34,6 +35,10 @@ class SceneryElements {
   double Size(const TiXmlElement& at, const std::string& text) const;
   /// The same of three edges.
   Eigen::Vector3d Sizes(const TiXmlElement& at, const std::string& text) const;
+  /// The text of a size by its name, in the form of the file's language.
+  using TextOfSize = std::function<std::string(const char*)>;
+  /// Takes a box, a sphere, a cylinder or a capsule; false: it is none of them.
+  bool TakeSolid(const TiXmlElement& shape, const TextOfSize& text_of, SceneryThing* thing) const;
   /// A mesh file that `uri` names, scaled along its axes.
   void TakeMesh(const TiXmlElement& at, const std::string& uri, const Eigen::Vector3d& scale,
                 const SceneryPlaces& places, SceneryThing* thing) const;

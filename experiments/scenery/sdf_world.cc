@@ -185,19 +185,11 @@ class SdfReader {
   }
 
   bool ReadShape(const SceneryElements& xml, const TiXmlElement& shape, SceneryThing* thing) {
-    const auto size = [&](const char* name) {
-      return xml.Size(shape, Elements::TextOf(shape, name));
-    };
+    const auto text_of = [&](const char* name) { return Elements::TextOf(shape, name); };
+    const auto size = [&](const char* name) { return xml.Size(shape, text_of(name)); };
+    if (xml.TakeSolid(shape, text_of, thing)) return true;
     const std::string& kind = shape.ValueStr();
-    if (kind == "box") {
-      thing->shape = Box{xml.Sizes(shape, Elements::TextOf(shape, "size"))};
-    } else if (kind == "sphere") {
-      thing->shape = Sphere{size("radius")};
-    } else if (kind == "cylinder") {
-      thing->shape = Cylinder{size("radius"), size("length")};
-    } else if (kind == "capsule") {
-      thing->shape = Capsule{size("radius"), size("length")};
-    } else if (kind == "cone") {
+    if (kind == "cone") {
       thing->shape = ConeMesh(size("radius"), size("length"));
       scenery_.Tell(kConesTold);
     } else if (kind == "plane") {

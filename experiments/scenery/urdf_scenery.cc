@@ -124,19 +124,9 @@ class UrdfEnvironment {
   }
 
   void ReadShape(const TiXmlElement& shape, SceneryThing* thing) const {
-    const auto size = [&](const char* name) {
-      return xml_.Size(shape, Elements::AttributeText(shape, name));
-    };
-    const std::string& kind = shape.ValueStr();
-    if (kind == "box") {
-      thing->shape = Box{xml_.Sizes(shape, Elements::AttributeText(shape, "size"))};
-    } else if (kind == "sphere") {
-      thing->shape = Sphere{size("radius")};
-    } else if (kind == "cylinder") {
-      thing->shape = Cylinder{size("radius"), size("length")};
-    } else if (kind == "capsule") {
-      thing->shape = Capsule{size("radius"), size("length")};
-    } else if (kind == "mesh") {
+    const auto text_of = [&](const char* name) { return Elements::AttributeText(shape, name); };
+    if (xml_.TakeSolid(shape, text_of, thing)) return;
+    if (shape.ValueStr() == "mesh") {
       const Eigen::Vector3d scale = xml_.Attribute(shape, "scale", Eigen::VectorXd::Ones(3));
       xml_.TakeMesh(shape, Elements::AttributeText(shape, "filename"), scale, request_.places,
                     thing);

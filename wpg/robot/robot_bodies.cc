@@ -1,7 +1,6 @@
 #include "wpg/robot/robot_bodies.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <numbers>
 #include <set>
@@ -11,6 +10,7 @@
 
 #include "wpg/elementary.h"
 #include "wpg/files/mesh_file.h"
+#include "wpg/files/ros_package_path.h"
 #include "wpg/files/text.h"
 #include "wpg/geometry/convex_parts.h"
 #include "wpg/geometry/simplified_hull.h"
@@ -43,14 +43,7 @@ std::string PackageOf(const std::string& mesh) {
 // The folder of a ROS package that is not named by the robot file: one of ROS_PACKAGE_PATH, or one
 // that the URDF is in, or beside; "" when there is none.
 std::string FindPackage(const std::string& package, const std::string& urdf_file) {
-  std::vector<fs::path> places;
-  if (const char* paths = std::getenv("ROS_PACKAGE_PATH")) {
-    for (std::string_view rest = paths; !rest.empty();) {
-      const size_t end = std::min(rest.find(':'), rest.size());
-      if (end > 0) places.emplace_back(rest.substr(0, end));
-      rest.remove_prefix(std::min(end + 1, rest.size()));
-    }
-  }
+  std::vector<fs::path> places = RosPackagePath();
   std::error_code ignored;
   fs::path above = fs::absolute(urdf_file, ignored).lexically_normal().parent_path();
   for (; above.has_relative_path(); above = above.parent_path()) places.push_back(above);
