@@ -140,6 +140,15 @@ TEST(StarterConfig, SaysWhyStepsAreShort) {
               HasSubstr("m in place of 0.211 m: with longer ones a leg comes to its limits."));
 }
 
+TEST(StarterConfig, AsksASearchForARobotThatCannotRest) {
+  const RobotModel robot = ShippedRobot("wren");
+  EXPECT_THAT(StarterConfigText(robot, {.robot_file = "r.yaml"}),
+              testing::Not(HasSubstr("\nsmoothing: {methods")));
+  EXPECT_THAT(StarterConfigText(robot, {.robot_file = "r.yaml", .why_search = "is too weak"}),
+              HasSubstr("# This robot is too weak.\n# So a search looks for a walk that does not "
+                        "rest.\nsmoothing: {methods: [halfstep/sqp]}\n"));
+}
+
 std::string UrdfRefusal(const std::string& urdf) {
   const TemporaryFolder place;
   const RobotSurvey survey = SurveyRobot({.urdf = WriteText(place / "robot.urdf", urdf)});
