@@ -13,6 +13,7 @@ class ControllerLost : public std::exception {
  public:
   /// `sentence` says why.
   explicit ControllerLost(std::string sentence) : sentence_(std::move(sentence)) {}
+  /// That sentence.
   const char* what() const noexcept override { return sentence_.c_str(); }
 
  private:

@@ -46,8 +46,8 @@ struct SceneryThing {
 
 /// What a file of another program has, before it becomes a scene.
 struct Scenery {
-  std::vector<SceneryThing> things;
-  std::vector<std::string> told;  ///< what was left out or taken otherwise, a sentence each
+  std::vector<SceneryThing> things;  ///< in the order of the file
+  std::vector<std::string> told;     ///< what was left out or taken otherwise, a sentence each
 
   /// Adds a sentence, if it is not there yet.
   void Tell(const std::string& sentence);

@@ -12,7 +12,7 @@ namespace halfstep {
 
 /// What is asked beside the file.
 struct SceneryRequest {
-  SceneryPlaces places;
+  SceneryPlaces places;                ///< where packages and models lie
   std::vector<std::string> without;    ///< names of things, links, models that are left out
   double scale = 1.0;                  ///< metres per unit of a mesh
   bool as_points = false;              ///< a PLY mesh is taken for its points

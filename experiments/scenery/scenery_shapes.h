@@ -15,8 +15,11 @@ inline constexpr double kMostSize = 1000;   ///< the same
 /// What is wrong with a size that is out of range.
 std::string SizeMistake(double size);
 
+/// What is wrong with a quaternion.
 inline constexpr const char* kNoTurn = "no turn: its four numbers are not of length 1 (x y z w)";
+/// What is wrong with a file of more than kMostThings things.
 inline constexpr const char* kTooManyThings = "too many things (valid: at most 100,000)";
+/// What is told of cones.
 inline constexpr const char* kConesTold =
     "cones are meshes of 64 sides around them, wider by at most 0.13 % of their radius";
 

@@ -29,6 +29,7 @@ class ClientControl {
     std::function<void()> wake = {};  ///< there is something to tell the client
     std::function<void(const std::string& reason)> wait = {};  ///< no client controls yet
   };
+  /// Nobody controls yet.
   ClientControl(Options options, Calls calls)
       : options_(std::move(options)), calls_(std::move(calls)) {}
 
