@@ -23,9 +23,9 @@ using Eigen::Vector3d;
 
 // What is less above the lowest point touches [m]: of flat parts, and of what is round or pointed.
 constexpr double kNearFloor = 1e-3, kOnFloor = 2e-4;
-// A sole's normal is the axis that is nearer than this, and triangles that face within this of each
-// other are one flat part [rad].
-constexpr double kFlat = 0.01, kOnePart = 0.02;
+// The normal of a flat part, or of a plane through corners, is the axis that is nearer than this;
+// triangles that face within this of each other are one flat part [rad].
+constexpr double kFlat = 0.01, kPlane = 1e-4, kOnePart = 0.02;
 constexpr double kLeastSole = 5e-3;  // either side of its rectangle [m]
 // Of the largest rectangle on which a foot can stand, what a flat part has at least.
 constexpr double kCarries = 0.5;
@@ -173,14 +173,14 @@ std::vector<Vector3d> PlanesBelow(const std::vector<const RobotBody*>& bodies,
   return normals;
 }
 
-// The rectangle on which a foot stands when a floor lies across `normal`, which points down. What
-// is less than `near` above the floor touches.
+// The rectangle on which a foot stands when a floor lies across `normal`, which points down, or
+// across an axis within `snap` of it. What is less than `near` above the floor touches.
 FoundSole SoleAcross(const Matrix3d& R_FB, const std::vector<const RobotBody*>& bodies,
-                     Vector3d normal, double near) {
+                     Vector3d normal, double snap, double near) {
   const Vector3d down = R_FB * -Vector3d::UnitZ();
   FoundSole sole;
   sole.tilt = Acos(std::min(1.0, normal.dot(down)));
-  normal = sole.tilt < kFlat ? down : Snapped(normal, kFlat);
+  normal = sole.tilt < snap ? down : Snapped(normal, snap);
   Matrix3d R;
   R.col(2) = -normal;
   const Vector3d forward = R_FB * Vector3d::UnitX();
@@ -200,7 +200,7 @@ FoundSole FindSole(const Leg& leg, const std::vector<const RobotBody*>& bodies) 
   const Vector3d down = R_FB * -Vector3d::UnitZ();
   FoundSole flat;
   if (const Vector3d normal = LargestFace(bodies, down); !normal.isZero()) {
-    flat = SoleAcross(R_FB, bodies, normal, kNearFloor);
+    flat = SoleAcross(R_FB, bodies, normal, kFlat, kNearFloor);
     flat.what =
         "the largest flat part of each foot's bodies and all that is less than 1 mm above its "
         "lowest point";
@@ -209,7 +209,7 @@ FoundSole FindSole(const Leg& leg, const std::vector<const RobotBody*>& bodies) 
   std::vector<Vector3d> normals = PlanesBelow(bodies, down);
   normals.insert(normals.begin(), down);
   for (const Vector3d& normal : normals) {
-    const FoundSole sole = SoleAcross(R_FB, bodies, normal, kOnFloor);
+    const FoundSole sole = SoleAcross(R_FB, bodies, normal, kPlane, kOnFloor);
     if (sole.size.minCoeff() >= kLeastSole && sole.size.prod() > best.size.prod()) best = sole;
   }
   best.what = "the plane below each foot's lowest balls, cylinders, edges and points";
@@ -228,8 +228,9 @@ FoundSole FindSole(const Leg& leg, const std::vector<const RobotBody*>& bodies) 
 FoundSole StatedSole(const Leg& leg, Side side, const std::vector<const RobotBody*>& bodies,
                      const StatedSoles& stated) {
   const Matrix3d R_FB = leg.joints[5].X_BLink.linear().transpose();
-  FoundSole sole = bodies.empty() ? FoundSole{}
-                                  : SoleAcross(R_FB, bodies, R_FB * -Vector3d::UnitZ(), kNearFloor);
+  FoundSole sole = bodies.empty()
+                       ? FoundSole{}
+                       : SoleAcross(R_FB, bodies, R_FB * -Vector3d::UnitZ(), kFlat, kNearFloor);
   if (bodies.empty()) sole.X_FootSole.linear() = R_FB;
   if (bodies.empty() || stated.centre) {
     const Vector2d ahead = stated.centre.value_or(Vector2d::Zero());

@@ -52,7 +52,10 @@ FoundSupport FindSupport(RobotModel robot) {
   robot.support_point = 0.0;
   double best = least();
   const MarginFamily missed = found.missed;
-  if (best < 0.0) families.push_back(MarginFamily::kZmp);
+  if (best < 0.0) {  // nor shall the offset cost what was not missed
+    families.push_back(MarginFamily::kZmp);
+    families.push_back(MarginFamily::kJoint);
+  }
   for (const double direction : {-1.0, 1.0}) {
     if (best >= 0.0 || found.offset != 0.0) break;
     for (int i = 1; i * kSupportStep < 0.5 * robot.sole_size.y(); ++i) {

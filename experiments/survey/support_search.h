@@ -19,7 +19,8 @@ struct FoundSupport {
 
 /// Where the whole robot's ZMP is not as far inside the support polygon in six steps, or a joint's
 /// torque not as far inside its limit, as is demanded by default: the support point, in whole
-/// millimetres, with which these and the point mass's ZMP have most slack (MarginLimits::Slack).
+/// millimetres, with which these, the point mass's ZMP and the joints' angles have most slack
+/// (MarginLimits::Slack).
 /// Offset 0 where nothing is missed, where the robot's masses are not known, or where no other
 /// offset is better.
 FoundSupport FindSupport(RobotModel robot);
