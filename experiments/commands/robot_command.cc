@@ -104,8 +104,9 @@ std::string WhyNoRest(const ExperimentRun& run) {
   }
   const Leg& leg = Nth(run.experiment().robot.legs, worst.subject / 6);
   const LegJoint& joint = Nth(leg.joints, worst.subject % 6);
-  return Formatted("is too weak to rest on one foot, where %s would need %.3g of its %.3g N m",
-                   joint.name.c_str(), joint.max_torque - worst.value, joint.max_torque);
+  return Formatted(
+      "is too weak for one half-step after the other: %s would need %.3g of its %.3g N m",
+      joint.name.c_str(), joint.max_torque - worst.value, joint.max_torque);
 }
 
 // Walks, proves and tells; whether the walk is certified.

@@ -64,8 +64,8 @@ void TellInfeasible(const ExperimentRun& run) {
     const bool given = walk.method == "given";
     told = told || !given;
     TellUnder(given           ? "the given walk is not feasible; worst first:"
-              : AllFound(run) ? "the plan itself is not feasible, what was made of it is; worst "
-                                "first:"
+              : AllFound(run) ? "the plan is not feasible, though every method found a walk; "
+                                "what the plan misses, worst first:"
                               : "the plan is not feasible; worst first:",
               InfeasibleText(run.problem(), walk));
   }

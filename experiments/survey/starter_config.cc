@@ -55,7 +55,7 @@ std::string StarterConfigText(const RobotModel& robot, const StarterConfig& conf
   }
   if (!config.why_search.empty()) {
     text += "# This robot " + config.why_search +
-            ".\n# So a search looks for a walk that does not rest.\n"
+            ".\n# So a search looks for another walk.\n"
             "smoothing: {methods: [halfstep/sqp]}\n";
   }
   text += Formatted(

@@ -145,8 +145,8 @@ TEST(StarterConfig, AsksASearchForARobotThatCannotRest) {
   EXPECT_THAT(StarterConfigText(robot, {.robot_file = "r.yaml"}),
               testing::Not(HasSubstr("\nsmoothing: {methods")));
   EXPECT_THAT(StarterConfigText(robot, {.robot_file = "r.yaml", .why_search = "is too weak"}),
-              HasSubstr("# This robot is too weak.\n# So a search looks for a walk that does not "
-                        "rest.\nsmoothing: {methods: [halfstep/sqp]}\n"));
+              HasSubstr("# This robot is too weak.\n# So a search looks for another walk.\n"
+                        "smoothing: {methods: [halfstep/sqp]}\n"));
 }
 
 std::string UrdfRefusal(const std::string& urdf) {
