@@ -7,6 +7,7 @@
 #include "experiments/run/missed_demands_text.h"
 #include "experiments/run/plan_inputs.h"
 #include "experiments/tables/not_covered_json.h"
+#include "planner/ground/flat_floor.h"
 #include "planner/search/planners.h"
 #include "planner/swept/obstacle_places.h"
 #include "planner/swept/swept_volume_query.h"
@@ -19,18 +20,24 @@
 namespace halfstep {
 namespace {
 
-// As a config says it, where the ground gives the height back.
-Pose2 SaidInConfig(const Foothold& X_WF, const Place& place) {
-  const Foothold again = OnGround(*place.scene.ground, place.robot, X_WF.Planar(), "plan");
+// What a config has to say beside the place seen from above, so that the ground gives the height
+// back.
+LevelChoice SaidInConfig(const Foothold& X_WF, const Place& place) {
+  const Ground& ground = *place.scene.ground;
+  const auto highest = ground.Standing(place.robot.sole_outline, X_WF.Planar());
+  LevelChoice choice;
+  if (!highest || highest->height != X_WF.height) choice.z = X_WF.height;
+  const Foothold again = OnGround(ground, place.robot, X_WF.Planar(), "plan", choice);
   HALFSTEP_CHECK(again == X_WF,
                  "a sole at " << X_WF.height << " m, above " << again.height << " m");
-  return X_WF.Planar();
+  return choice;
 }
 
 FootstepConfig ToConfig(const Footstep& footstep, const Place& place) {
   FootstepConfig config;
   config.foot = Name(footstep.side);
-  config.X_WF = SaidInConfig(footstep.X_WF, place);
+  config.X_WF = footstep.X_WF.Planar();
+  config.on = SaidInConfig(footstep.X_WF, place);
   return config;
 }
 
@@ -163,8 +170,10 @@ ExperimentConfig WithFootsteps(ExperimentConfig config, const std::array<Foothol
                                const std::vector<Footstep>& footsteps, const Place& place) {
   config.has_goal = false;
   config.has_start = true;
-  config.start_left = SaidInConfig(start[0], place);
-  config.start_right = SaidInConfig(start[1], place);
+  config.start_left = start[0].Planar();
+  config.start_right = start[1].Planar();
+  config.start_left_on = SaidInConfig(start[0], place);
+  config.start_right_on = SaidInConfig(start[1], place);
   for (const Footstep& footstep : footsteps) {
     config.footsteps.push_back(ToConfig(footstep, place));
   }
@@ -188,6 +197,7 @@ void ExplainNoPlan(const Place& place, const MarginEvaluator& evaluator, Planned
 PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
                      const PlanningHooks& hooks) {
   HALFSTEP_CHECK(config.has_goal, "no goal");
+  RequireFlatFloor(*place.scene.ground, "planner");
   CheckPlaces(place.scene);  // before minutes of baking
   PlannedWalk walk{.config = config,
                    .plan = {},

@@ -46,7 +46,7 @@ struct Scene {
   /// What of the files was replaced by something larger, left out or is hard to believe, as
   /// "file: …", for the user.
   std::vector<std::string> warnings;
-  /// Not null. Flat at z = 0: no key of a scene file says otherwise yet.
+  /// Not null. Flat at z = 0 unless the file has surfaces (planner/README.md, "Levels").
   std::shared_ptr<const Ground> ground = std::make_shared<const FlatGround>();
 
   /// Its ground and friction under its name: no obstacles, no areas, nothing of files.

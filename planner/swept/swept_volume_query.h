@@ -7,7 +7,6 @@
 #include <variant>
 #include <vector>
 
-#include "planner/collision/bounds_tree.h"
 #include "planner/collision/mesh_interior.h"
 #include "planner/collision/triangle_tree.h"
 #include "planner/scene/no_step_areas.h"
@@ -16,6 +15,7 @@
 #include "planner/swept/box_tree_query.h"
 #include "planner/swept/obstacle_places.h"
 #include "planner/swept/swept_volumes.h"
+#include "wpg/geometry/bounds_tree.h"
 #include "wpg/geometry/foothold.h"
 
 namespace halfstep {
