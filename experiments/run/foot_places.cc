@@ -88,7 +88,7 @@ FootPlace FootPlaces::At(Side side, const Foothold& X_WF) const {
       const Margin margin = evaluator_.clearances().OfBody(b, posture, 0.0, kNear, &scratch.bodies);
       if (margin.other < 0 || margin.value >= place.clearance) continue;
       place.clearance = margin.value;
-      place.obstacle = Nth(scene().obstacles, margin.other).name;
+      place.obstacle = scene().NameOf(margin.other);
     }
   }
   place.free = !place.on_area && place.clearance >= limits().demanded_of(MarginFamily::kClearance);

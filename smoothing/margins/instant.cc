@@ -1,5 +1,7 @@
 #include "smoothing/margins/instant.h"
 
+#include <algorithm>
+
 #include "wpg/robot/gravity.h"
 
 namespace halfstep {
@@ -62,6 +64,14 @@ const SupportPolygon& Instant::support() {
 WalkThirds MarginInterval::Thirds() const {
   const double middle = mid.t(), h = motion.half_width;
   return mid.walk().ThirdRanges(middle - h, middle + h);
+}
+
+double MarginInterval::LeastSole(Side side) const {
+  const int z = FootIndex(side) + 2, step = mid.step_in_air();
+  const double least = motion.jet.value[z] - motion.Change(z);
+  if (step < 0 || mid.swing() != side) return least;
+  const double t = mid.t(), h = motion.half_width;
+  return std::max(least, mid.walk().LeastHeight(step, t - h, t + h));
 }
 
 const RobotDrift& MarginInterval::drift() const {

@@ -9,9 +9,9 @@
 #include "planner/scene/scene.h"
 #include "smoothing/margins/body_clearances.h"
 #include "smoothing/margins/body_heights.h"
+#include "smoothing/margins/foot_solids.h"
 #include "smoothing/margins/rounding.h"
 #include "smoothing/margins/work.h"
-#include "wpg/check.h"
 #include "wpg/geometry/pose2.h"
 #include "wpg/robot/robot_model.h"
 #include "wpg/workers.h"
@@ -21,8 +21,7 @@ namespace halfstep {
 /// A robot among the obstacles of a scene, prepared for the questions of all families. It cannot be
 /// moved, because its parts borrow from each other.
 struct MarginPlace {
-  /// Prepares both; takes as long as building the scene's trees. Precondition: nothing stands out
-  /// of the ground's floor, since no family keeps off solids yet (std::logic_error).
+  /// Prepares both; takes as long as building the scene's trees.
   MarginPlace(RobotModel r, Scene s, OwnMargins its_own)
       : robot(std::move(r)),
         scene(std::move(s)),
@@ -30,9 +29,8 @@ struct MarginPlace {
         clearances(robot, scene),
         heights(robot, scene.ground->Floor()),
         areas(scene, robot.sole_outline),
-        rounding(robot) {
-    HALFSTEP_CHECK(scene.ground->Solids().empty(), scene.ground->Solids().size() << " solids");
-  }
+        solids(robot, scene),
+        rounding(robot) {}
   MarginPlace(const MarginPlace&) = delete;
   MarginPlace& operator=(const MarginPlace&) = delete;
 
@@ -42,6 +40,7 @@ struct MarginPlace {
   BodyClearances clearances;  ///< of the robot's bodies in the scene
   BodyHeights heights;        ///< of the robot's bodies above the floor
   NoStepAreas areas;          ///< of the scene, for the robot's soles
+  FootSolids solids;          ///< of the scene's ground, for the robot's feet
   Rounding rounding;          ///< of the robot's walks
 };
 
