@@ -56,8 +56,8 @@ double CollisionWorld::Uncertainty::Most(double t, double half_width) const {
 }
 
 CollisionWorld::CollisionWorld(const Scene& scene)
-    : shapes_(std::make_shared<Shapes>(scene.obstacles.size() + scene.ground->Solids().size())),
-      has_solids_(!scene.ground->Solids().empty()) {
+    : has_solids_(!scene.ground->Solids().empty()),
+      shapes_(std::make_shared<Shapes>(scene.obstacles.size() + scene.ground->Solids().size())) {
   std::vector<Eigen::AlignedBox3d> boxes;
   for (const Obstacle& obstacle : scene.obstacles) {
     Add(obstacle, std::numeric_limits<double>::infinity(), &boxes);

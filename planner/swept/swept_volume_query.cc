@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numbers>
 
+#include "planner/scene/solid_body.h"
 #include "planner/swept/four_floats.h"
+#include "planner/swept/swept_volume_bake.h"
 #include "wpg/check.h"
 #include "wpg/elementary.h"
+#include "wpg/geometry/planar_hull.h"
 #include "wpg/nth.h"
 
 namespace halfstep {
@@ -15,21 +19,54 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
+// Heights of one level differ by less, which come by different sums [m].
+constexpr double kSameLevel = 1e-8;
+
+// A convex polygon around all that is within a distance of another.
+Eigen::Matrix2Xd GrownBy(double distance, const Eigen::Matrix2Xd& polygon) {
+  if (distance <= 0.0) return polygon;
+  constexpr int kSides = 16;  // of a polygon around a disc
+  const double reach = distance / Cos(std::numbers::pi / kSides);
+  std::vector<Eigen::Vector2d> points;
+  for (const Eigen::Vector2d& corner : polygon.colwise()) {
+    for (int k = 0; k < kSides; ++k) {
+      const double angle = 2.0 * std::numbers::pi * k / kSides;
+      points.push_back(corner + reach * Eigen::Vector2d(Cos(angle), Sin(angle)));
+    }
+  }
+  std::vector<Eigen::Vector2d> hull(2 * points.size() + 1);
+  hull.resize(PlanarHull(points, hull));
+  Eigen::Matrix2Xd grown(2, static_cast<Eigen::Index>(hull.size()));
+  for (size_t i = 0; i < hull.size(); ++i) grown.col(static_cast<Eigen::Index>(i)) = hull[i];
+  return grown;
+}
+
 }  // namespace
 
 SweptVolumeQuery::SweptVolumeQuery(const SweptVolumes& volumes,
                                    const Eigen::Matrix2Xd& sole_outline, const Scene& scene,
-                                   double no_step, double until)
+                                   double no_step, double until, double foothold)
     : volumes_(volumes),
       down_bounds_(BoundsOf(volumes.down)),
       up_bounds_(BoundsOf(volumes.up)),
-      level_(scene.ground->HeightEverywhere()),
+      down_swing_bounds_(BoundsOf(volumes.down_swing)),
+      up_swing_bounds_(BoundsOf(volumes.up_swing)),
+      down_stand_bounds_(BoundsOf(volumes.down_stand)),
+      up_stand_bounds_(BoundsOf(volumes.up_stand)),
+      ground_(scene.ground),
       areas_(scene, sole_outline),
       no_step_(no_step) {
   const size_t size = volumes.set.placements.size();
-  HALFSTEP_CHECK(volumes.down.size() == size && volumes.up.size() == size,
-                 volumes.down.size() << " and " << volumes.up.size() << " volumes of " << size);
-  for (const Foothold& X_SF : volumes.set.placements) X_SF.CheckLevel();
+  ForEachVolume(volumes, volumes.set.on_levels, [size](const SweptVolumes::Volumes& all) {
+    HALFSTEP_CHECK(all.size() == size, all.size() << " volumes of " << size);
+  });
+  if (volumes.set.on_levels) {
+    foothold_ = GrownBy(foothold, sole_outline);
+  } else {
+    HALFSTEP_CHECK(ground_->Solids().empty(), ground_->Solids().size() << " solids");
+    level_ = ground_->HeightEverywhere();
+    for (const Foothold& X_SF : volumes.set.placements) X_SF.CheckLevel();
+  }
   CheckPlaces(scene, until);
   std::vector<ObstaclePlace> all;
   for (const Obstacle& obstacle : scene.obstacles) {
@@ -40,6 +77,12 @@ SweptVolumeQuery::SweptVolumeQuery(const SweptVolumes& volumes,
       places_.push_back(prepared);
       places_.back().extra += place.extra;
     }
+  }
+  for (const GroundSolid& solid : ground_->Solids()) {
+    const Obstacle body = BodyOf(solid);
+    all.push_back({.X_WO = body.X_WO});
+    places_.push_back(Prepare(body));
+    places_.back().top = solid.top;
   }
   std::vector<Upright> cylinders;
   for (int i = 0; i < std::ssize(all); ++i) cylinders.push_back(Move(i, Nth(all, i).X_WO));
@@ -74,7 +117,7 @@ bool SweptVolumeQuery::MeetsObstacle(const BoxTree& tree, const Placed& placed,
 
 bool SweptVolumeQuery::IsFree(const Placed& placed, double extra) const {
   HALFSTEP_CHECK(placed.X_WS.AllFinite(), "the sole's pose is not finite");
-  if (!placed.volume || placed.X_WS.height != level_) return false;
+  if (!placed.volume || (level_ && placed.X_WS.height != *level_)) return false;
   __builtin_prefetch(placed.bounds.root);
   __builtin_prefetch(&*placed.volume);
   if (tree_.nodes.empty()) return true;
@@ -133,22 +176,46 @@ bool SweptVolumeQuery::MeetsLeaf(const Placed& placed, const BoundsTree::Node& l
     for (; near != 0; near &= near - 1) {
       const size_t k = static_cast<size_t>(std::countr_zero(static_cast<unsigned>(near)));
       const Prepared& place = Nth(places_, place_at_[4 * block + k]);
+      if (place.top <= placed.above) continue;
       if (MeetsObstacle(*placed.volume, placed, place, extra + place.extra)) return true;
     }
   }
   return false;
 }
 
-SweptVolumeQuery::Placed SweptVolumeQuery::Down(int i, Side support, const Foothold& X_WS) const {
+SweptVolumeQuery::PlacedParts SweptVolumeQuery::Down(int i, Side support,
+                                                     const Foothold& X_WS) const {
   const auto [s, c] = SinCos(X_WS.yaw);
-  return {Nth(volumes_.down, i), Nth(down_bounds_, i), support == Side::kRight, X_WS, c, s};
+  const bool mirrored = support == Side::kRight;
+  PlacedParts parts{{Nth(volumes_.down, i), Nth(down_bounds_, i), mirrored, X_WS, c, s}};
+  if (level_) return parts;
+  const double landing = X_WS.height + Nth(volumes_.set.placements, i).height;
+  parts.swing.emplace(Placed{Nth(volumes_.down_swing, i), Nth(down_swing_bounds_, i), mirrored,
+                             X_WS, c, s, landing + kSameLevel});
+  parts.stand.emplace(Placed{Nth(volumes_.down_stand, i), Nth(down_stand_bounds_, i), mirrored,
+                             X_WS, c, s, X_WS.height + kSameLevel});
+  return parts;
 }
 
-SweptVolumeQuery::Placed SweptVolumeQuery::Up(int i, Side support, const Foothold& X_WS) const {
+SweptVolumeQuery::PlacedParts SweptVolumeQuery::Up(int i, Side support,
+                                                   const Foothold& X_WS) const {
   // The foot that has landed supports.
   const Foothold X_WF = X_WS * volumes_.set.Placement(i, support);
   const auto [s, c] = SinCos(X_WF.yaw);
-  return {Nth(volumes_.up, i), Nth(up_bounds_, i), support == Side::kLeft, X_WF, c, s};
+  const bool mirrored = support == Side::kLeft;
+  PlacedParts parts{{Nth(volumes_.up, i), Nth(up_bounds_, i), mirrored, X_WF, c, s}};
+  if (level_) return parts;
+  parts.swing.emplace(Placed{Nth(volumes_.up_swing, i), Nth(up_swing_bounds_, i), mirrored, X_WF, c,
+                             s, X_WS.height + kSameLevel});
+  parts.stand.emplace(Placed{Nth(volumes_.up_stand, i), Nth(up_stand_bounds_, i), mirrored, X_WF, c,
+                             s, X_WF.height + kSameLevel});
+  return parts;
+}
+
+bool SweptVolumeQuery::Bears(const Foothold& X_WF) const {
+  if (level_) return X_WF.height == *level_;
+  const auto level = ground_->LevelUnder(foothold_, X_WF.Planar(), X_WF.height + kSameLevel);
+  return level && std::abs(level->height - X_WF.height) <= kSameLevel;
 }
 
 std::vector<SweptVolumeQuery::Bounds> SweptVolumeQuery::BoundsOf(
@@ -169,6 +236,7 @@ std::vector<SweptVolumeQuery::Bounds> SweptVolumeQuery::BoundsOf(
 }
 
 bool SweptVolumeQuery::DownIsFree(int i, Side support, const Foothold& X_WS) const {
+  if (!level_ && !Bears(X_WS * volumes_.set.Placement(i, support))) return false;
   if (!IsFree(Down(i, support, X_WS), 0.0)) return false;
   return areas_.empty() ||
          areas_.Clears((X_WS * volumes_.set.Placement(i, support)).Planar(), no_step_);
@@ -178,7 +246,7 @@ bool SweptVolumeQuery::UpIsFree(int i, Side support, const Foothold& X_WS) const
   return IsFree(Up(i, support, X_WS), 0.0);
 }
 
-double SweptVolumeQuery::Clearance(const Placed& placed, double cap) const {
+double SweptVolumeQuery::Clearance(const PlacedParts& placed, double cap) const {
   constexpr double kResolution = 1e-3;  // [m]
   if (!IsFree(placed, 0.0)) return 0.0;
   if (IsFree(placed, cap)) return cap;

@@ -216,7 +216,23 @@ TEST(CollisionWorld, SolidsAreObstaclesAtRestUnlessTheyAreTooLow) {
   GroundSolid other = Block("other", 0.0, 1.0, -1.0, 1.0, 0.1);
   other.polygon << 1.0, 1.0, 0.0, 0.0, -1.0, 1.0, 1.0, -1.0;
   EXPECT_TRUE(std::holds_alternative<Box>(BodyOf(other).shape));
-  EXPECT_FALSE(std::holds_alternative<Box>(BodyOf(turned).shape));
+  EXPECT_TRUE(std::holds_alternative<Box>(BodyOf(turned).shape));
+  GroundSolid oblique = turned;
+  oblique.polygon.col(2).x() += 0.01;
+  EXPECT_FALSE(std::holds_alternative<Box>(BodyOf(oblique).shape));
+  for (const GroundSolid& solid : {other, turned, oblique}) {
+    const Obstacle body = BodyOf(solid);
+    const ConvexBody shape = std::holds_alternative<Box>(body.shape)
+                                 ? BodyOf(std::get<Box>(body.shape))
+                                 : std::get<ConvexBody>(body.shape);
+    const Eigen::Matrix3Xd corners = body.X_WO * Eigen::Matrix3Xd(shape.vertices);
+    for (const Eigen::Vector2d& p : solid.polygon.colwise()) {
+      for (const double z : {solid.bottom, solid.top}) {
+        EXPECT_LT((corners.colwise() - Vector3d(p.x(), p.y(), z)).colwise().norm().minCoeff(),
+                  1e-12);
+      }
+    }
+  }
   other.top = other.bottom;
   EXPECT_THROW(BodyOf(other), std::logic_error);
 }
