@@ -88,7 +88,7 @@ class LevelCertifier {
   LevelCertifier(const RobotModel& robot, const ExperimentConfig& config)
       : robot_(robot),
         config_(config),
-        model_(MotionModelOf(robot)),
+        model_(MotionModelOf(robot, PrototypeOf(config).shape)),
         floor_(Demandable(config.smoothing.limits, robot).demanded_of(MarginFamily::kFloor)) {}
 
   bool Certifies(const HalfStep& half_step) {
