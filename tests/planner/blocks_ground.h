@@ -45,8 +45,8 @@ class BlocksGround final : public Ground {
     std::optional<GroundLevel> highest;
     bool touches = false;
     for (const GroundSolid& block : solids_) {
+      if (PolygonsTouch(sole, block.polygon) && block.bottom <= floor_) touches = true;
       if (block.top > below) continue;
-      if (PolygonsTouch(sole, block.polygon)) touches = true;
       const GroundLevel& level = levels_[static_cast<size_t>(*block.bears)];
       if (!Holds(block.polygon, sole) || (highest && highest->height >= level.height)) continue;
       highest = level;

@@ -210,8 +210,8 @@ TEST(VolumesOnLevels, WhatIsFreeKeepsTheClearanceFromSolids) {
       block.polygon = (X.Planar().rotation() * block.polygon).colwise() + X.Planar().position();
       blocks.push_back(block);
     }
-    const double x = draw.Uniform(-0.3, 0.5), y = draw.Uniform(-0.6, 0.6);
-    blocks.push_back(Block("block", x, x + 0.06, y, y + 0.06, draw.Uniform(0.1, 0.6)));
+    const double x = draw.Uniform(-0.2, 0.4), y = draw.Uniform(-0.4, 0.4);
+    blocks.push_back(Block("block", x, x + 0.06, y, y + 0.06, draw.Uniform(0.2, 0.8)));
     Scene scene;
     scene.ground = std::make_shared<const BlocksGround>(BlocksGround::kNoFloor, blocks);
     const SweptVolumeQuery query(volumes, SoleCorners({}, {0.22, 0.14}), scene);

@@ -192,6 +192,85 @@ bool Holds(const Eigen::Matrix2Xd& convex, const Eigen::Vector2d& p) {
   return true;
 }
 
+// Both feet onto a tread of 10 cm, and the tread: its edge is `behind` [m] behind the feet that
+// stand on it.
+HalfStepSequence StepUp(const RobotModel& robot, double rise = 0.1) {
+  const double y = 0.5 * robot.standing_width;
+  return MakeSequence(
+      StandingFeet(robot),
+      {{.side = Side::kRight, .X_WF = {{0.28, -y, 0.0}, rise}, .via_height = 0.22, .duration = 2.0},
+       {.side = Side::kLeft, .X_WF = {{0.28, y, 0.0}, rise}, .via_height = 0.15, .duration = 2.0}},
+      0.24, {.shift = 0.05, .foot_delay = 0.12, .foot_ramp = 0.4, .lift_share = 0.6},
+      std::make_shared<Lipm>(robot.com_height));
+}
+Scene Tread(const RobotModel& robot, double top, double behind = 0.01) {
+  const double edge = 0.28 + FootOutline(robot).row(0).minCoeff() - behind;
+  return On(0.0, {Block("tread", edge, 2.0, -1.0, 1.0, top, 0.0)});
+}
+
+TEST(GroundSolids, AStepUpIsCertifiedAndATreadThatIsAMillimetreHigherIsNot) {
+  const RobotModel robot = Hrp2();
+  const HalfStepSequence sequence = StepUp(robot);
+  MarginLimits limits = Only(MarginFamily::kFloor, 0.005);
+  limits.demanded_of(MarginFamily::kClearance) = 0.005;
+  limits.demanded_of(MarginFamily::kGround) = 0.0;
+  int certified = 0;
+  for (const double share : {0.0, 0.3}) {
+    const SuperposedWalk walk(sequence, Overlapped(sequence, share));
+    Certificate certificate;
+    const Scene scene = Tread(robot, 0.1);
+    const Feasibility answer = Certify(robot, scene, limits, walk, &certificate);
+    EXPECT_EQ(answer.verdict, Verdict::kFeasible)
+        << share << ": " << MarginEvaluator(robot, scene, limits).Describe(answer.witness);
+    certified += answer.verdict == Verdict::kFeasible;
+    const Scene higher = Tread(robot, 0.101);
+    const Feasibility refused = Certify(robot, higher, limits, walk, &certificate);
+    EXPECT_EQ(refused.verdict, Verdict::kViolated);
+    // The riser as much nearer to the toe of the foot that waits before it as there is room.
+    const Scene nearer = Tread(robot, 0.1,
+                               0.28 + FootOutline(robot).row(0).minCoeff() -
+                                   FootOutline(robot).row(0).maxCoeff() - 0.0045);
+    EXPECT_EQ(Certify(robot, nearer, limits, walk, &certificate).verdict, Verdict::kViolated);
+  }
+  EXPECT_EQ(certified, 2);
+  // Down again: the foot comes from above the edge.
+  const double y = 0.5 * robot.standing_width;
+  const HalfStepSequence down = MakeSequence(
+      {Foothold({0.28, y, 0.0}, 0.1), Foothold({0.28, -y, 0.0}, 0.1)},
+      {{.side = Side::kRight, .X_WF = Foothold::Level({0.0, -y, 0.0}), .via_height = 0.15},
+       {.side = Side::kLeft, .X_WF = Foothold::Level({0.0, y, 0.0}), .via_height = 0.22}},
+      0.24, {.shift = 0.05, .foot_delay = 0.12, .foot_ramp = 0.4, .lift_share = 0.6},
+      std::make_shared<Lipm>(robot.com_height));
+  Certificate certificate;
+  const Feasibility answer = Certify(robot, Tread(robot, 0.1), limits,
+                                     SuperposedWalk(down, PlannedMotion(down)), &certificate);
+  EXPECT_EQ(answer.verdict, Verdict::kFeasible)
+      << MarginEvaluator(robot, Tread(robot, 0.1), limits).Describe(answer.witness);
+}
+
+// How fast a foot sinks counts in the last centimetre above where it lands, not above the floor.
+TEST(GroundSolids, LandingSpeedCountsAboveTheLanding) {
+  const RobotModel robot = Hrp2();
+  const HalfStepSequence sequence = StepUp(robot);
+  const SuperposedWalk walk(sequence, PlannedMotion(sequence));
+  MarginLimits limits = Only(MarginFamily::kLandingSpeed, 0.0);
+  limits.landing_speed = 0.3;
+  const MarginEvaluator evaluator(robot, Tread(robot, 0.1), limits);
+  MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
+  int low = 0;
+  for (int n = 0; n <= 400; ++n) {
+    const LocalTime at = walk.Locate(walk.duration() * n / 400);
+    if (walk.StepInAir(at) != 0) continue;
+    const WalkJet jet = walk.At(at);
+    const double height = jet.value[kRightZ] - 0.1;
+    const double expected = 0.3 * std::max(1.0, height / 0.01) + jet.first[kRightZ];
+    EXPECT_NEAR(Of(evaluator.At(walk, at, &scratch), MarginFamily::kLandingSpeed).value, expected,
+                1e-12);
+    low += height < 0.01 && jet.first[kRightZ] < 0.0;
+  }
+  EXPECT_GT(low, 3);
+}
+
 // Certified walks over drawn blocks: no vertex of a foot's body is in a block at any time.
 TEST(GroundSolids, NoPointOfACertifiedFootIsEverInsideABlock) {
   const RobotModel robot = Hrp2();
