@@ -18,6 +18,7 @@
 #include "experiments/tables/result_tables.h"
 #include "experiments/tables/run_folder.h"
 #include "experiments/tables/trajectory_match.h"
+#include "planner/ground/flat_floor.h"
 #include "smoothing/margins/not_covered_by.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/sha256.h"
@@ -81,6 +82,7 @@ ExitStatus Certify(const CertifyCommand& command) {
   ExperimentConfig config =
       LoadConfig((run / "config.yaml").string(), command.overrides, command.tools);
   const Experiment experiment = Prepare(config);
+  RequireFlatFloor(*experiment.scene.ground, "certify");
   const MarginEvaluator evaluator(experiment.robot, experiment.scene, config.smoothing.limits);
   const CertifiedFeasibility test(evaluator, config.smoothing.certification);
   const nlohmann::json manifest = ReadJsonObject(run / "manifest.json");
@@ -124,7 +126,9 @@ ExitStatus Certify(const CertifyCommand& command) {
   folder.Publish();
   if (!command.quiet) {
     std::cout << '\n'
-              << CertificateStatement(experiment.robot, evaluator.limits()) << "\n\n"
+              << CertificateStatement(experiment.robot, evaluator.limits(),
+                                      !experiment.scene.ground->OnlyLevel())
+              << "\n\n"
               << NotCoveredText(
                      NotCoveredBy(experiment.robot, experiment.scene, evaluator.limits()),
                      "not_covered in certificate.json");

@@ -3,16 +3,13 @@
 #include <algorithm>
 #include <utility>
 
-#include "planner/search/step_set.h"
+#include "planner/ground/flat_floor.h"
 #include "wpg/files/input_error.h"
 
 namespace halfstep {
 
 Scene WithSpareBoxes(Scene scene, const LiveOptions& options) {
-  if (HasLevels(*scene.ground)) {
-    throw InputError(
-        {"scene: episodes walk at one height only (valid: a scene whose ground is flat)"});
-  }
+  RequireFlatFloor(*scene.ground, "episode");
   const double floor = scene.ground->HeightEverywhere();
   for (const std::string& name : SpareNames(options)) {
     Obstacle box{.name = name, .shape = Box{{0.2, 0.2, 0.1}}};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -25,18 +26,24 @@
 namespace halfstep {
 namespace {
 
-// As a config says it, where the ground gives the height back.
-Pose2 SaidInConfig(const Foothold& X_WF, const Place& place) {
-  const Foothold again = OnGround(*place.scene.ground, place.robot, X_WF.Planar(), "plan");
+// What a config has to say beside the place seen from above, so that the ground gives the height
+// back.
+LevelChoice SaidInConfig(const Foothold& X_WF, const Place& place) {
+  const Ground& ground = *place.scene.ground;
+  const auto highest = ground.Standing(place.robot.sole_outline, X_WF.Planar());
+  LevelChoice choice;
+  if (!highest || highest->height != X_WF.height) choice.z = X_WF.height;
+  const Foothold again = OnGround(ground, place.robot, X_WF.Planar(), "plan", choice);
   HALFSTEP_CHECK(again == X_WF,
                  "a sole at " << X_WF.height << " m, above " << again.height << " m");
-  return X_WF.Planar();
+  return choice;
 }
 
 FootstepConfig ToConfig(const Footstep& footstep, const Place& place) {
   FootstepConfig config;
   config.foot = Name(footstep.side);
-  config.X_WF = SaidInConfig(footstep.X_WF, place);
+  config.X_WF = footstep.X_WF.Planar();
+  config.on = SaidInConfig(footstep.X_WF, place);
   return config;
 }
 
@@ -252,8 +259,10 @@ ExperimentConfig WithFootsteps(ExperimentConfig config, const std::array<Foothol
                                const std::vector<Footstep>& footsteps, const Place& place) {
   config.has_goal = false;
   config.has_start = true;
-  config.start_left = SaidInConfig(start[0], place);
-  config.start_right = SaidInConfig(start[1], place);
+  config.start_left = start[0].Planar();
+  config.start_right = start[1].Planar();
+  config.start_left_on = SaidInConfig(start[0], place);
+  config.start_right_on = SaidInConfig(start[1], place);
   for (const Footstep& footstep : footsteps) {
     config.footsteps.push_back(ToConfig(footstep, place));
   }
@@ -303,8 +312,9 @@ PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
   }
   const SweptVolumes& volumes = *walk.half_steps.cached.volumes;
   const MarginLimits limits = Demandable(config.smoothing.limits, place.robot);
-  const SweptVolumeQuery query(volumes, place.robot.sole_outline, place.scene,
-                               limits.demanded_of(MarginFamily::kNoStep));
+  const SweptVolumeQuery query(
+      volumes, place.robot.sole_outline, place.scene, limits.demanded_of(MarginFamily::kNoStep),
+      std::numeric_limits<double>::infinity(), limits.demanded_of(MarginFamily::kFoothold));
   const HalfStepCertifier certifier(place.robot, place.scene, config);
   const MarginEvaluator evaluator(place.robot, place.scene, config.smoothing.limits);
   const CertifiedFeasibility test(evaluator, config.smoothing.certification);

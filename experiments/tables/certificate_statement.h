@@ -50,6 +50,7 @@ inline constexpr char kTubeStatement[] =
 struct StatedOnRequest {
   bool double_support = false;  ///< whether it is demanded
   bool landing_speed = false;   ///< whether there is a limit
+  bool foothold = false;        ///< whether the ground has more levels than one, or borders
   bool tube = false;            ///< whether it holds in a tube
 };
 
@@ -70,16 +71,23 @@ inline std::string CertificateStatement(const RobotModel& robot, const StatedOnR
   if (stated.landing_speed) {
     insert("ZMP of the linear", "how fast the swing foot sinks in its last centimetre, ");
   }
+  if (stated.foothold) {
+    insert("ZMP of the whole robot, with",
+           "how far inside one level of the ground the outline of every sole that stands lies, ");
+  }
   if (stated.double_support) {
     insert(") is at least", ", how long the ZMP of each half-step goes from foot to foot");
   }
   return statement;
 }
-/// By its limits and demands.
-inline std::string CertificateStatement(const RobotModel& robot, const MarginLimits& limits) {
+/// By its limits and demands; `has_levels`: whether the ground has more levels than one, or
+/// borders.
+inline std::string CertificateStatement(const RobotModel& robot, const MarginLimits& limits,
+                                        bool has_levels = false) {
   return CertificateStatement(
       robot, {.double_support = limits.demanded_of(MarginFamily::kDoubleSupport) != kNotDemanded,
               .landing_speed = limits.landing_speed.has_value(),
+              .foothold = has_levels,
               .tube = limits.tube != Tube{}});
 }
 

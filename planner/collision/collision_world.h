@@ -6,9 +6,9 @@
 #include <memory>
 #include <vector>
 
-#include "planner/collision/bounds_tree.h"
 #include "planner/collision/separation.h"
 #include "planner/scene/scene.h"
+#include "wpg/geometry/bounds_tree.h"
 #include "wpg/nth.h"
 
 namespace halfstep {

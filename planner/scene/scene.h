@@ -45,7 +45,7 @@ struct Scene {
   /// What of the files was replaced by something larger, left out or is hard to believe, as
   /// "file: …", for the user.
   std::vector<std::string> warnings;
-  /// Not null. Flat at z = 0: no key of a scene file says otherwise yet.
+  /// Not null. Flat at z = 0 unless the file has surfaces (planner/README.md, "Levels").
   std::shared_ptr<const Ground> ground = std::make_shared<const FlatGround>();
 
   /// The obstacle of an index that counts the obstacles first and then the solids of the ground;

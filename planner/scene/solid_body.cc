@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "planner/scene/simple_polygon.h"
 #include "wpg/check.h"
+#include "wpg/geometry/simple_polygon.h"
 
 namespace halfstep {
 namespace {

@@ -7,9 +7,9 @@
 #include <tuple>
 #include <unordered_map>
 
-#include "planner/scene/simple_polygon.h"
 #include "wpg/check.h"
 #include "wpg/elementary.h"
+#include "wpg/geometry/simple_polygon.h"
 #include "wpg/geometry/support_polygon.h"
 #include "wpg/nth.h"
 

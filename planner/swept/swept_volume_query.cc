@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numbers>
 
 #include "planner/scene/solid_body.h"
 #include "planner/swept/four_floats.h"
 #include "planner/swept/swept_volume_bake.h"
 #include "wpg/check.h"
 #include "wpg/elementary.h"
-#include "wpg/geometry/planar_hull.h"
 #include "wpg/nth.h"
 
 namespace halfstep {
@@ -19,27 +17,8 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// Heights of one level differ by less, which come by different sums [m].
+// Tops this little above a sole are at it: the same level by another sum [m].
 constexpr double kSameLevel = 1e-8;
-
-// A convex polygon around all that is within a distance of another.
-Eigen::Matrix2Xd GrownBy(double distance, const Eigen::Matrix2Xd& polygon) {
-  if (distance <= 0.0) return polygon;
-  constexpr int kSides = 16;  // of a polygon around a disc
-  const double reach = distance / Cos(std::numbers::pi / kSides);
-  std::vector<Eigen::Vector2d> points;
-  for (const Eigen::Vector2d& corner : polygon.colwise()) {
-    for (int k = 0; k < kSides; ++k) {
-      const double angle = 2.0 * std::numbers::pi * k / kSides;
-      points.push_back(corner + reach * Eigen::Vector2d(Cos(angle), Sin(angle)));
-    }
-  }
-  std::vector<Eigen::Vector2d> hull(2 * points.size() + 1);
-  hull.resize(PlanarHull(points, hull));
-  Eigen::Matrix2Xd grown(2, static_cast<Eigen::Index>(hull.size()));
-  for (size_t i = 0; i < hull.size(); ++i) grown.col(static_cast<Eigen::Index>(i)) = hull[i];
-  return grown;
-}
 
 }  // namespace
 
@@ -54,15 +33,16 @@ SweptVolumeQuery::SweptVolumeQuery(const SweptVolumes& volumes,
       down_stand_bounds_(BoundsOf(volumes.down_stand)),
       up_stand_bounds_(BoundsOf(volumes.up_stand)),
       ground_(scene.ground),
+      levels_(*scene.ground),
+      sole_outline_(sole_outline),
+      foothold_(foothold),
       areas_(scene, sole_outline),
       no_step_(no_step) {
   const size_t size = volumes.set.placements.size();
   ForEachVolume(volumes, volumes.set.on_levels, [size](const SweptVolumes::Volumes& all) {
     HALFSTEP_CHECK(all.size() == size, all.size() << " volumes of " << size);
   });
-  if (volumes.set.on_levels) {
-    foothold_ = GrownBy(foothold, sole_outline);
-  } else {
+  if (!volumes.set.on_levels) {
     HALFSTEP_CHECK(ground_->Solids().empty(), ground_->Solids().size() << " solids");
     level_ = ground_->HeightEverywhere();
     for (const Foothold& X_SF : volumes.set.placements) X_SF.CheckLevel();
@@ -214,8 +194,12 @@ SweptVolumeQuery::PlacedParts SweptVolumeQuery::Up(int i, Side support,
 
 bool SweptVolumeQuery::Bears(const Foothold& X_WF) const {
   if (level_) return X_WF.height == *level_;
-  const auto level = ground_->LevelUnder(foothold_, X_WF.Planar(), X_WF.height + kSameLevel);
-  return level && std::abs(level->height - X_WF.height) <= kSameLevel;
+  if (levels_.empty()) return X_WF.height == ground_->HeightEverywhere();
+  const int level = levels_.LevelAt(X_WF.height);
+  if (level < 0) return false;
+  return foothold_ > 0.0
+             ? levels_.NearestTo(sole_outline_, X_WF.Planar(), level).distance >= foothold_
+             : levels_.Bears(sole_outline_, X_WF.Planar(), level);
 }
 
 std::vector<SweptVolumeQuery::Bounds> SweptVolumeQuery::BoundsOf(

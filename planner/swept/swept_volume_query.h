@@ -7,15 +7,16 @@
 #include <variant>
 #include <vector>
 
-#include "planner/collision/bounds_tree.h"
 #include "planner/collision/mesh_interior.h"
 #include "planner/collision/triangle_tree.h"
+#include "planner/ground/level_borders.h"
 #include "planner/scene/no_step_areas.h"
 #include "planner/scene/scene.h"
 #include "planner/search/half_step_query.h"
 #include "planner/swept/box_tree_query.h"
 #include "planner/swept/obstacle_places.h"
 #include "planner/swept/swept_volumes.h"
+#include "wpg/geometry/bounds_tree.h"
 #include "wpg/geometry/foothold.h"
 
 namespace halfstep {
@@ -33,10 +34,10 @@ class SweptVolumeQuery : public HalfStepQuery {
  public:
   /// `volumes` is borrowed and must outlive this. A landing sole, of the outline
   /// RobotModel::sole_outline (2×k) [m], keeps `no_step` ≥ 0 [m] from the no-step areas and touches
-  /// none. Soles stand at the ground's one level, or on levels where all of their outline, grown by
-  /// `foothold` ≥ 0 [m], is on that of their height: what does not is not free. Half-steps are
-  /// executed at times of [0, until] [s]. Precondition: finite poses, volumes for each element, a
-  /// set on levels or ground of one level without solids (std::logic_error). Throws InputError as
+  /// none. Soles stand at the ground's one level, or on levels where their outline is inside that
+  /// of their height by `foothold` ≥ 0 [m] (LevelBorders): what does not is not free. Half-steps
+  /// are executed at times of [0, until] [s]. Precondition: finite poses, volumes for each element,
+  /// a set on levels or ground of one level without solids (std::logic_error). Throws InputError as
   /// PlacesOf.
   SweptVolumeQuery(const SweptVolumes& volumes, const Eigen::Matrix2Xd& sole_outline,
                    const Scene& scene, double no_step = 0.0,
@@ -137,7 +138,9 @@ class SweptVolumeQuery : public HalfStepQuery {
   double farthest_ = 0.0;             // coordinate of an obstacle [m]
   std::shared_ptr<const Ground> ground_;
   std::optional<double> level_;  // the only one [m]; none: the set is on levels
-  Eigen::Matrix2Xd foothold_;    // what shall lie on a level under a sole, in the sole frame
+  LevelBorders levels_;
+  Eigen::Matrix2Xd sole_outline_;
+  double foothold_ = 0.0;
   NoStepAreas areas_;
   double no_step_ = 0.0;
 };

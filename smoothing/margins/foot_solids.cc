@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "planner/scene/simple_polygon.h"
 #include "wpg/elementary.h"
+#include "wpg/geometry/simple_polygon.h"
 #include "wpg/nth.h"
 #include "wpg/robot/sole_outline.h"
 

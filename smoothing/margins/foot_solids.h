@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "planner/collision/bounds_tree.h"
 #include "planner/scene/scene.h"
+#include "wpg/geometry/bounds_tree.h"
 #include "wpg/geometry/foothold.h"
 #include "wpg/robot/robot_model.h"
 

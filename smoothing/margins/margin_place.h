@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "planner/ground/level_borders.h"
 #include "planner/scene/no_step_areas.h"
 #include "planner/scene/scene.h"
 #include "smoothing/margins/body_clearances.h"
@@ -12,6 +13,7 @@
 #include "smoothing/margins/foot_solids.h"
 #include "smoothing/margins/rounding.h"
 #include "smoothing/margins/work.h"
+#include "wpg/geometry/foothold.h"
 #include "wpg/geometry/pose2.h"
 #include "wpg/robot/robot_model.h"
 #include "wpg/workers.h"
@@ -30,6 +32,7 @@ struct MarginPlace {
         heights(robot, scene.ground->Floor()),
         areas(scene, robot.sole_outline),
         solids(robot, scene),
+        levels(*scene.ground),
         rounding(robot) {}
   MarginPlace(const MarginPlace&) = delete;
   MarginPlace& operator=(const MarginPlace&) = delete;
@@ -41,6 +44,7 @@ struct MarginPlace {
   BodyHeights heights;        ///< of the robot's bodies above the floor
   NoStepAreas areas;          ///< of the scene, for the robot's soles
   FootSolids solids;          ///< of the scene's ground, for the robot's feet
+  LevelBorders levels;        ///< of the scene's ground
   Rounding rounding;          ///< of the robot's walks
 };
 
@@ -53,10 +57,17 @@ struct MarginScratch {
     NoStepAreas::Nearest nearest;  ///< the area nearest to it there
     bool known = false;            ///< whether it has stood
   };
+  /// The border of its level that was nearest to a sole where it stood last.
+  struct OnLevel {
+    Foothold X_WF;                  ///< where the sole stood
+    LevelBorders::Nearest nearest;  ///< the border nearest to it there
+    bool known = false;             ///< whether it has stood
+  };
   BodyClearances::Scratch bodies;         ///< of BodyClearances
   Work work = {};                         ///< done so far
   std::stop_token stop = {};              ///< ends proofs; what is not decided then stays undecided
   std::array<Standing, 2> standing = {};  ///< by Index(Side)
+  std::array<OnLevel, 2> on_level = {};   ///< by Index(Side)
   /// Threads that proofs may use beside the caller's, borrowed; null: none.
   Workers* workers = nullptr;
   std::vector<MarginScratch> of_others = {};  ///< of those threads, made when they are first used

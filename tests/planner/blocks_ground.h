@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "planner/scene/simple_polygon.h"
+#include "wpg/geometry/simple_polygon.h"
 #include "wpg/ground/ground.h"
 
 namespace halfstep {
