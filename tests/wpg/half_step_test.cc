@@ -165,14 +165,24 @@ TEST_F(HalfStepTest, GoesFromMidFeetToAboveTheSupportSoleAndBack) {
   h.via_height = 0.12;
   h.via_lateral = 0.22;
   WalkState floor, via;
-  // CoM, ZMP, waist yaw, left foot, right foot.
-  floor << 0.05, -0.1, 0.05, -0.1, 0.2, 0, 0, 0, 0, 0.1, -0.2, 0, 0.4;
-  via << 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, -0.22, 0.12, 0;
+  // CoM, ZMP, waist yaw, left foot, right foot, waist z.
+  floor << 0.05, -0.1, 0.05, -0.1, 0.2, 0, 0, 0, 0, 0.1, -0.2, 0, 0.4, 0;
+  via << 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, -0.22, 0.12, 0, 0;
   EXPECT_EQ(h.Start(), floor);
   EXPECT_EQ(h.End(), via);
   h.kind = HalfStepKind::kDown;
   EXPECT_EQ(h.Start(), via);
   EXPECT_EQ(h.End(), floor);
+  // A swing foot that stands lower takes the waist with it; one that stands higher does not.
+  h.X_SF.height = -0.1;
+  floor[kRightZ] = floor[kWaistZ] = -0.1;
+  EXPECT_EQ(h.End(), floor);
+  EXPECT_EQ(h.Start(), via);
+  h.X_SF.height = floor[kRightZ] = 0.1;
+  h.shape.crouch = 0.02;
+  floor[kWaistZ] = via[kWaistZ] = -0.02;
+  EXPECT_EQ(h.End(), floor);
+  EXPECT_EQ(h.Start(), via);
 }
 
 TEST_F(HalfStepTest, RestsOnTheSupportPointOnTheSideOfTheSwingFoot) {
