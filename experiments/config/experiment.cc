@@ -6,6 +6,7 @@
 #include "smoothing/margins/demandable.h"
 #include "smoothing/margins/family_traits.h"
 #include "wpg/files/input_error.h"
+#include "wpg/files/number_text.h"
 #include "wpg/files/text.h"
 #include "wpg/motion/lipm.h"
 #include "wpg/nth.h"
@@ -149,16 +150,28 @@ HalfStep PrototypeOf(const ExperimentConfig& config) {
 
 Experiment Prepare(const ExperimentConfig& config) { return Prepare(config, LoadPlace(config)); }
 
-std::shared_ptr<const MotionModel> MotionModelOf(const RobotModel& robot) {
-  return std::make_shared<Lipm>(robot.com_height);
+std::shared_ptr<const MotionModel> MotionModelOf(const RobotModel& robot,
+                                                 const HalfStepShape& shape) {
+  return std::make_shared<Lipm>(robot.com_height - shape.crouch);
 }
 
 HalfStepSequence SequenceOf(const ExperimentConfig& config, const RobotModel& robot,
                             const Ground& ground) {
   const std::array<Foothold, 2> start = StartOf(config, robot, ground);
-  if (config.footsteps.empty()) return {start, {}, MotionModelOf(robot)};
-  return MakeSequence(start, FootstepsOf(config, robot, ground), config.half_step.via_lateral,
-                      ShapeOf(config.half_step), MotionModelOf(robot));
+  const HalfStepShape shape = ShapeOf(config.half_step);
+  if (config.footsteps.empty()) return {start, {}, MotionModelOf(robot, shape)};
+  HalfStepSequence sequence =
+      MakeSequence(start, FootstepsOf(config, robot, ground), config.half_step.via_lateral, shape,
+                   MotionModelOf(robot, shape));
+  for (int step = 0; step < sequence.num_steps(); ++step) {
+    const double scale = LeastHeightScale(sequence, step);
+    if (scale <= 1.0) continue;
+    const double via = Nth(sequence.half_steps, 2 * step).half_step.via_height;
+    throw InputError({"footsteps[" + std::to_string(step) + "].via_height_m: " + ShortestText(via) +
+                      " is lower than a footstep of that step (valid: from " +
+                      ShortestText(scale * via) + " above the support sole)"});
+  }
+  return sequence;
 }
 
 ExperimentConfig Changed(ExperimentConfig config, const std::vector<PlanChange>& changes) {

@@ -61,8 +61,10 @@ std::vector<Footstep> FootstepsOf(const ExperimentConfig& config, const RobotMod
 /// The half-steps of a config without their place: duration, via point, shape.
 HalfStep PrototypeOf(const ExperimentConfig& config);
 
-/// What proposes how CoM and ZMP of a robot move.
-std::shared_ptr<const MotionModel> MotionModelOf(const RobotModel& robot);
+/// What proposes how CoM and ZMP of a robot move in half-steps of this shape, whose crouch lowers
+/// the CoM.
+std::shared_ptr<const MotionModel> MotionModelOf(const RobotModel& robot,
+                                                 const HalfStepShape& shape);
 
 /// The half-steps of a config's footsteps; empty without footsteps.
 HalfStepSequence SequenceOf(const ExperimentConfig& config, const RobotModel& robot,

@@ -53,6 +53,27 @@ void DeclareHalfStep(Fields& fields, HalfStepConfig* c) {
                  .unit = "m",
                  .min = -1,
                  .max = 1});
+  const HalfStepShape as_always;
+  fields.Number(
+      "rise_begin", &c->rise_begin,
+      {.meaning = "fraction of T after which the waist rises, where the swing foot stands "
+                  "lower than the support foot; in a down half-step as long before its end",
+       .min = 0,
+       .max = 0.75,
+       .left_out = as_always.rise_begin});
+  fields.Number("rise_end", &c->rise_end,
+                {.meaning = "fraction of T by which it has risen",
+                 .min = 0.85,
+                 .max = 1,
+                 .left_out = as_always.rise_end});
+  fields.Number(
+      "crouch_m", &c->crouch,
+      {.meaning = "how far the waist is kept below where the robot file has it; legs reach "
+                  "further down steps then",
+       .unit = "m",
+       .min = 0,
+       .max = 0.5,
+       .left_out = as_always.crouch});
   fields.Misplaced("compensation", "is gone, since it made no walk shorter (leave it out)");
 }
 
@@ -62,7 +83,10 @@ HalfStepShape ShapeOf(const HalfStepConfig& config) {
           .bump_ramp = config.zmp_bump_ramp.value_or(1.0),
           .foot_ramp = config.foot_ramp,
           .lift_share = config.lift_share,
-          .support_point = config.support_point};
+          .support_point = config.support_point,
+          .rise_begin = config.rise_begin,
+          .rise_end = config.rise_end,
+          .crouch = config.crouch};
 }
 
 }  // namespace halfstep

@@ -18,6 +18,9 @@ struct HalfStepConfig {
   double foot_ramp = 0.5;               ///< of the foot's horizontal motion
   double lift_share = 1.0;              ///< of the foot's flight
   double support_point = 0.0;           ///< [m]
+  double rise_begin = HalfStepShape().rise_begin;  ///< of T
+  double rise_end = HalfStepShape().rise_end;      ///< of T
+  double crouch = 0.0;                             ///< [m]
 };
 
 /// Fractions of T, as half-steps have them.

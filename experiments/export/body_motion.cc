@@ -92,7 +92,7 @@ BodyFrame BodyMotion::At(const SuperposedWalk& walk, double t, const std::string
   for (const Side side : {Side::kLeft, Side::kRight}) {
     Nth(frame.stands, Index(side)) = !walk.InAir(walk.Locate(at), side);
   }
-  frame.com = {jet.value[kComX], jet.value[kComY], model.com_height};
+  frame.com = {jet.value[kComX], jet.value[kComY], model.com_height + jet.value[kWaistZ]};
   frame.q = JointAngles(model, tree, {posture.ik[0].q, posture.ik[1].q});
   frame.speeds = JointAngles(model, still_, posture.speeds);
 

@@ -151,8 +151,9 @@ WalkPlan ReadWalk(const Tables& tables, size_t walk, const LiveConfig& config, c
   if (footsteps.empty()) throw InputError({table.path + ": no footsteps"});
   const HalfStepConfig& half_step = config.experiment.half_step;
   WalkPlan plan;
-  plan.sequence = MakeSequence(start, footsteps, half_step.via_lateral, ShapeOf(half_step),
-                               MotionModelOf(place.robot));
+  const HalfStepShape shape = ShapeOf(half_step);
+  plan.sequence = MakeSequence(start, footsteps, half_step.via_lateral, shape,
+                               MotionModelOf(place.robot, shape));
   plan.parameters = ReadParameters(tables.folder() / WalkFolder(walk), plan.sequence);
   return plan;
 }

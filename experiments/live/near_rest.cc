@@ -33,7 +33,7 @@ std::optional<NearRest> NearRest::AtStart(const SafetyCheck& among, const Experi
   const Footstep in_place{.side = Side::kRight, .X_WF = Nth(start, Index(Side::kRight))};
   WalkPlan plan;
   plan.sequence = MakeSequence(start, {in_place}, like.via_lateral, like.shape,
-                               MotionModelOf(among.evaluator().robot()));
+                               MotionModelOf(among.evaluator().robot(), like.shape));
   plan.parameters = PlannedMotion(plan.sequence);
   return At(among, config, plan.Walk(), 0, 0.0);
 }

@@ -258,7 +258,7 @@ Proposal Replanner::Begin(const std::array<Foothold, 2>& start, const PreparedWo
   proposal.reason = proposal.planned.sentence;
   if (proposal.planned.footsteps.empty()) return proposal;
   proposal.plan.sequence = MakeSequence(start, proposal.planned.footsteps, like.via_lateral,
-                                        like.shape, MotionModelOf(robot_));
+                                        like.shape, MotionModelOf(robot_, like.shape));
   proposal.plan.parameters = PlannedMotion(proposal.plan.sequence);
   const SuperposedWalk walk = proposal.plan.Walk();
   Situation situation;

@@ -46,7 +46,7 @@ void HoldTime(const SuperposedWalk& walk, double t, const LocalTime& at,
   }
 }
 
-// (parameters, values, first, second), each array (parameters × 13).
+// (parameters, values, first, second), each array (parameters × 14).
 py::tuple SensitivitiesAt(const PlacedWalk& placed, double t, bool hold_time) {
   const LocalTime at = placed.walk.Locate(RequireTime(t));
   std::vector<WalkSensitivity> all;

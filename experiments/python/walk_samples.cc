@@ -63,7 +63,8 @@ void PutWithoutJoints(const RobotModel& robot, const SuperposedWalk& walk, doubl
   put(t);
   put(at.half_step + 1.0);
   put(step < 0 ? kBoth : CodeOf(Name(walk.half_step(2 * step).support)));
-  for (const double com : {jet.value[kComX], jet.value[kComY], robot.com_height}) put(com);
+  const double rise = jet.value[kWaistZ];
+  for (const double com : {jet.value[kComX], jet.value[kComY], robot.com_height + rise}) put(com);
   for (const WalkState* rate : {&jet.first, &jet.second}) {
     put((*rate)[kComX]);
     put((*rate)[kComY]);
@@ -73,9 +74,9 @@ void PutWithoutJoints(const RobotModel& robot, const SuperposedWalk& walk, doubl
   const double yaw = jet.value[kWaistYaw];
   put(jet.value[kComX] - robot.com_x_B * Cos(yaw));
   put(jet.value[kComY] - robot.com_x_B * Sin(yaw));
-  put(robot.waist_height);
+  put(robot.waist_height + rise);
   put(yaw);
-  for (int q = kLeftX; q < kNumQuantities; ++q) put(jet.value[q]);
+  for (int q = kLeftX; q <= kRightYaw; ++q) put(jet.value[q]);
 }
 
 }  // namespace

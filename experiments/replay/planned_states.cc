@@ -15,7 +15,8 @@ namespace {
 WalkState QuantitiesOf(const RobotModel& robot, const TrajectoryRow& row) {
   const Eigen::Vector3d p_WC = row.X_WB() * Eigen::Vector3d(robot.com_x_B, 0.0, 0.0);
   WalkState x;
-  x << p_WC.head<2>(), row.zmp, row.waist[3], row.soles[0], row.soles[1];
+  x << p_WC.head<2>(), row.zmp, row.waist[3], row.soles[0], row.soles[1],
+      row.waist[2] - robot.waist_height;
   return x;
 }
 

@@ -29,7 +29,7 @@ json HalfStepJson(const PlacedHalfStep& placed) {
   for (const ParameterFamily family : AllParameterFamilies()) {
     const ParameterFamilyTraits& traits = Traits(family);
     const std::string column(traits.column);
-    if (traits.factor) continue;
+    if (traits.factor || traits.of_heights) continue;
     if (traits.number != nullptr) numbers[column] = half_step.*traits.number;
     if (traits.shape != nullptr) numbers[column] = half_step.shape.*traits.shape;
   }

@@ -92,7 +92,7 @@ class PairSearch {
 
 json NearestPairsJson(const RobotModel& robot, const Scene& scene, const CsvTable& trajectory) {
   const std::vector<double> t = trajectory.Numbers("t_s");
-  const std::vector<WalkState> states = StatesOf(trajectory);
+  const std::vector<WalkState> states = StatesOf(robot, trajectory);
   PairSearch search(robot, scene);
   json pairs = json::array();
   for (const MarginFamily family : {MarginFamily::kClearance, MarginFamily::kSelfClearance}) {

@@ -31,7 +31,7 @@ std::optional<Eigen::Vector2d> ZmpOf(const RobotModel& robot, const WalkJet& jet
 
 std::vector<Eigen::Vector2d> RobotZmps(const RobotModel& robot, const CsvTable& trajectory) {
   const std::vector<double> t = trajectory.Numbers("t_s");
-  const std::vector<WalkState> states = StatesOf(trajectory);
+  const std::vector<WalkState> states = StatesOf(robot, trajectory);
   const std::vector<double> vx = trajectory.Numbers("com_vx_m_s"),
                             vy = trajectory.Numbers("com_vy_m_s"),
                             ax = trajectory.Numbers("com_ax_m_s2"),

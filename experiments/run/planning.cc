@@ -54,13 +54,12 @@ HalfStepCertifier::HalfStepCertifier(const RobotModel& robot, const Scene& scene
 
 HalfStepCertifier::HalfStepCertifier(const MarginEvaluator& evaluator,
                                      const CertificationOptions& options)
-    : model_(MotionModelOf(evaluator.robot())),
-      evaluator_(evaluator),
-      feasibility_(evaluator, options) {}
+    : evaluator_(evaluator), feasibility_(evaluator, options) {}
 
 bool HalfStepCertifier::Certifies(const HalfStep& half_step, const Foothold& X_WS) const {
   MarginEvaluator::Scratch scratch = evaluator_.MakeScratch();
-  return AcceptsHalfStep(feasibility_, half_step, X_WS, model_, &scratch);
+  return AcceptsHalfStep(feasibility_, half_step, X_WS,
+                         MotionModelOf(evaluator_.robot(), half_step.shape), &scratch);
 }
 
 StepSet CertifiedHalfSteps(const RobotModel& robot, const ExperimentConfig& config,
@@ -100,7 +99,8 @@ std::string MissedInPlace(const RobotModel& robot, const Scene& scene,
                           .via_height = prototype.via_height,
                           .duration = prototype.duration};
   const HalfStepSequence sequence =
-      MakeSequence(start, {footstep}, prototype.via_lateral, prototype.shape, MotionModelOf(robot));
+      MakeSequence(start, {footstep}, prototype.via_lateral, prototype.shape,
+                   MotionModelOf(robot, prototype.shape));
   const MarginEvaluator evaluator(robot, scene, config.smoothing.limits);
   const CertifiedFeasibility test(evaluator, config.smoothing.certification);
   const SuperposedWalk walk(sequence, PlannedMotion(sequence));
@@ -149,9 +149,9 @@ BakedHalfSteps BakeHalfSteps(const RobotModel& robot, const ExperimentConfig& co
   if (!config.swept_volumes.cache.empty()) {
     folder = (std::filesystem::path(config.directory) / config.swept_volumes.cache).string();
   }
-  baked.cached =
-      LoadOrBakeSweptVolumes(robot, *MotionModelOf(robot), set, options, folder,
-                             {.threads = 0, .stop = hooks.stop, .progress = progress("bake")});
+  baked.cached = LoadOrBakeSweptVolumes(
+      robot, *MotionModelOf(robot, set.prototype.shape), set, options, folder,
+      {.threads = 0, .stop = hooks.stop, .progress = progress("bake")});
   baked.wall = SteadySeconds() - set_done;
   return baked;
 }
@@ -225,8 +225,9 @@ PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
     return certifier.Certifies(up, X_WS);
   };
   request.accepts = [&](const std::vector<Footstep>& footsteps) {
-    return CertifyPlan(test, MakeSequence(request.start, footsteps, prototype.via_lateral,
-                                          prototype.shape, MotionModelOf(place.robot)));
+    return CertifyPlan(
+        test, MakeSequence(request.start, footsteps, prototype.via_lateral, prototype.shape,
+                           MotionModelOf(place.robot, prototype.shape)));
   };
   request.max_refusals = config.planner.max_refusals;
   request.clock = SteadySeconds;

@@ -28,7 +28,6 @@ class HalfStepCertifier {
   bool Certifies(const HalfStep& half_step, const Foothold& X_WS) const;
 
  private:
-  std::shared_ptr<const MotionModel> model_;
   MarginEvaluator evaluator_;
   CertifiedFeasibility feasibility_;
 };

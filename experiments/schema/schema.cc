@@ -39,7 +39,7 @@ std::vector<TableSchema> Tables() {
   sweep.parts = {.bound = true, .replay = true};
   std::vector<TableSchema> tables = {
       {"run/footsteps", FootstepsCsv({}).columns},
-      {"run/half_steps", HalfStepsColumns(HalfStepsExtent::kFootsteps)},
+      {"run/half_steps", HalfStepsColumns(HalfStepsExtent::kHeights)},
       {"run/trajectory", TrajectoryColumns()},
       {"run/overlaps", OverlapsColumns()},
       {"run/pareto", ParetoColumns(FamiliesWith({}))},

@@ -35,7 +35,11 @@ class RobotChecker {
  public:
   RobotChecker(const std::string& name, const RobotModel& robot, const RunHooks& hooks,
                double effort)
-      : name_(name), robot_(robot), hooks_(hooks), effort_(effort), model_(MotionModelOf(robot)) {
+      : name_(name),
+        robot_(robot),
+        hooks_(hooks),
+        effort_(effort),
+        model_(MotionModelOf(robot, {})) {
     ScaleDefaults(MeasuresOf(robot), &config_);
   }
 

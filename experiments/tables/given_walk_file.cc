@@ -36,7 +36,7 @@ class GivenWalkReader {
       });
     }
     if (!files.half_steps.empty()) {
-      half_steps_.emplace(files.half_steps, HalfStepsColumns(HalfStepsExtent::kFootsteps),
+      half_steps_.emplace(files.half_steps, HalfStepsColumns(HalfStepsExtent::kHeights),
                           sequence_.half_steps.size(), "half-steps", &complaints_);
       CheckRowNames(&*half_steps_, "half_step", [this](size_t i) {
         return sequence_.half_steps[i].half_step.kind == HalfStepKind::kUp ? "up" : "down";
@@ -205,7 +205,7 @@ GivenWalkFiles SortGivenFiles(const std::vector<std::string>& paths) {
       return 2 * known >= std::ssize(header);
     };
     const bool of_overlaps = is_like(OverlapsColumns());
-    if (!of_overlaps && !is_like(HalfStepsColumns(HalfStepsExtent::kFootsteps))) {
+    if (!of_overlaps && !is_like(HalfStepsColumns(HalfStepsExtent::kHeights))) {
       complaints.Add(path, 1, 1, "--given",
                      "has neither overlaps nor half-steps (valid: columns of overlaps.csv, as "
                      "overlap_s, or of half_steps.csv, as duration_s)");

@@ -11,6 +11,7 @@ namespace {
 
 HalfStepsExtent ExtentOf(ParameterFamily family) {
   const ParameterFamilyTraits& traits = Traits(family);
+  if (traits.of_heights) return HalfStepsExtent::kHeights;
   if (traits.move != nullptr) return HalfStepsExtent::kFootsteps;
   return traits.of_form ? HalfStepsExtent::kForms : HalfStepsExtent::kTimes;
 }
@@ -18,6 +19,10 @@ HalfStepsExtent ExtentOf(ParameterFamily family) {
 }  // namespace
 
 HalfStepsExtent ExtentOf(const HalfStepSequence& sequence, const HomotopyParameters& parameters) {
+  const bool level = std::ranges::all_of(sequence.half_steps, [](const PlacedHalfStep& placed) {
+    return placed.half_step.X_SF.height == 0.0;
+  });
+  if (!level) return HalfStepsExtent::kHeights;
   const HomotopyParameters planned = PlannedMotion(sequence);
   HalfStepsExtent extent = HalfStepsExtent::kTimes;
   for (const ParameterFamily family : AllParameterFamilies()) {

@@ -10,9 +10,10 @@ namespace halfstep {
 CsvColumn ColumnOf(ParameterFamily family);
 
 /// Which columns half_steps.csv has: those that it always has; with those of forms; with those of
-/// the moves of footsteps, too.
-enum class HalfStepsExtent { kTimes, kForms, kFootsteps };
-/// Which half_steps.csv of a walk has: as far as values are not the plan's.
+/// the moves of footsteps; with those of the waist's rise, too.
+enum class HalfStepsExtent { kTimes, kForms, kFootsteps, kHeights };
+/// Which half_steps.csv of a walk has: as far as values are not the plan's, and all where soles
+/// stand at different heights.
 HalfStepsExtent ExtentOf(const HalfStepSequence& sequence, const HomotopyParameters& parameters);
 /// The families whose values stand in half_steps.csv, in the order of their columns.
 std::vector<ParameterFamily> FamiliesOfHalfSteps(HalfStepsExtent extent);

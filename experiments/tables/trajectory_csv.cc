@@ -81,11 +81,11 @@ std::vector<MotionCell> MotionRow(const RobotModel& robot, const SuperposedWalk&
   const Eigen::Vector3d waist = posture.X_WB.translation();
   std::vector<MotionCell> row = {t, static_cast<long>(at.half_step + 1), SupportName(walk, at)};
   const auto add = [&row](auto... values) { (row.emplace_back(values), ...); };
-  add(jet.value[kComX], jet.value[kComY], robot.com_height);
+  add(jet.value[kComX], jet.value[kComY], robot.com_height + jet.value[kWaistZ]);
   add(jet.first[kComX], jet.first[kComY], jet.second[kComX], jet.second[kComY]);
   add(jet.value[kZmpX], jet.value[kZmpY]);
   add(waist.x(), waist.y(), waist.z(), jet.value[kWaistYaw]);
-  for (int q = kLeftX; q < kNumQuantities; ++q) add(jet.value[q]);
+  for (int q = kLeftX; q <= kRightYaw; ++q) add(jet.value[q]);
   for (const LegIkSolution& ik : posture.ik) {
     for (int j = 0; j < 6; ++j) add(posture.reachable ? ik.q[j] : std::nan(""));
   }

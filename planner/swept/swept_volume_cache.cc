@@ -97,7 +97,8 @@ std::string SweptVolumeProvenance(const RobotModel& robot, const MotionModel& mo
   line("via_height", Exactly(set.prototype.via_height));
   line("via_lateral", Exactly(set.prototype.via_lateral));
   // All its numbers: one more does not compile before it is here.
-  const auto& [shift, delay, bump_ramp, foot_ramp, lift_share, support] = set.prototype.shape;
+  const auto& [shift, delay, bump_ramp, foot_ramp, lift_share, support, rise_begin, rise_end,
+               crouch] = set.prototype.shape;
   line("shift", Exactly(shift));
   line("foot_delay", Exactly(delay));
   // Those that a shape has as always are left out, so that older files stay valid.
@@ -108,6 +109,9 @@ std::string SweptVolumeProvenance(const RobotModel& robot, const MotionModel& mo
   line_unless("foot_ramp", foot_ramp, 0.5);
   line_unless("lift_share", lift_share, 1.0);
   line_unless("support_point", support, 0.0);
+  line_unless("rise_begin", rise_begin, 0.525);
+  line_unless("rise_end", rise_end, 1.0);
+  line_unless("crouch", crouch, 0.0);
   line_unless("via_along", set.prototype.via_along, 0.0);
   line("elements", std::to_string(set.size()));
   line("placements", Sha256(placements));

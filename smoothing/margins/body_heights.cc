@@ -11,7 +11,7 @@ BodyHeights::BodyHeights(const RobotModel& robot, double floor)
       (IsOnFoot(body(b)) ? on_feet_ : of_legs_).push_back(b);
       continue;
     }
-    // The waist is upright, at a constant height.
+    // The waist is upright.
     const double height =
         robot.waist_height - Support(body(b).shape, -Eigen::Vector3d::UnitZ()) - floor_;
     if (height < of_waist_.value) {
@@ -39,6 +39,7 @@ double BodyHeights::OnFoot(int b, const WalkState& x) const {
 
 Margin BodyHeights::Least(const Posture& posture, const WalkState& x, double enough) const {
   Margin least = of_waist_;
+  least.value += x[kWaistZ];
   const auto lower = [&](int b, double height) {
     if (height >= least.value) return;
     least.value = height;

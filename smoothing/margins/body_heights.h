@@ -35,8 +35,8 @@ class BodyHeights {
   /// RobotModel::bodies.
   const std::vector<int>& of_legs() const { return of_legs_; }
   const std::vector<int>& on_feet() const { return on_feet_; }  ///< bodies on a foot, by index
-  /// The margin of the waist's lowest body, which keeps its height while walking; +∞ when there is
-  /// none.
+  /// The margin of the waist's lowest body where the waist is as high as on the floor, kWaistZ = 0;
+  /// +∞ when there is none.
   const Margin& of_waist() const { return of_waist_; }
 
   /// z of the floor in W [m].

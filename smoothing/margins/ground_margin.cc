@@ -90,7 +90,8 @@ class GroundMargin final : public WholeFamily {
       tightest->Add(Of(heights.LowestPoint(body, motion.posture).z() - heights.floor(), body),
                     change + rounding);
     }
-    tightest->Add(Of(heights.of_waist().value, heights.of_waist().subject), rounding);
+    tightest->Add(Of(heights.of_waist().value + x[kWaistZ], heights.of_waist().subject),
+                  motion.Change(kWaistZ) + rounding);
     tightest->count = count();  // the lowest of the waist's bodies for all
   }
 

@@ -1,6 +1,17 @@
 #include "smoothing/margins/slack_sink.h"
 
 namespace halfstep {
+namespace {
+
+// The waist's height comes last, so that a sum over what moves on flat ground is what it is
+// without.
+double Product(const WalkState& gradient, const WalkState& tangent) {
+  static_assert(kWaistZ + 1 == kNumQuantities);
+  return gradient.head<kWaistZ>().dot(tangent.head<kWaistZ>()) +
+         gradient[kWaistZ] * tangent[kWaistZ];
+}
+
+}  // namespace
 
 void SlackSink::Begin(MarginFamily family, double demanded) {
   family_ = family;
@@ -18,9 +29,9 @@ bool SlackSink::AddSlack(double margin, double rate) {
 void SlackSink::AddSlopes(const WalkJet& gradient) {
   const bool of_first = !gradient.first.isZero(0.0), of_second = !gradient.second.isZero(0.0);
   for (const WalkSensitivity& s : sensitivities) {
-    double slope = gradient.value.dot(s.jet.value);
-    if (of_first) slope += gradient.first.dot(s.jet.first);
-    if (of_second) slope += gradient.second.dot(s.jet.second);
+    double slope = Product(gradient.value, s.jet.value);
+    if (of_first) slope += Product(gradient.first, s.jet.first);
+    if (of_second) slope += Product(gradient.second, s.jet.second);
     gradient_.push_back(slope / scale_);
   }
 }

@@ -42,6 +42,13 @@ double NaturalOverlapBound(const HomotopyParameters& parameters, int junction) {
       .At(parameters.durations[i], parameters.durations[i + 1]);
 }
 
+double LeastHeightScale(const HalfStepSequence& sequence, int step) {
+  const HalfStep& up = Nth(sequence.half_steps, 2 * step).half_step;
+  const HalfStep& down = Nth(sequence.half_steps, 2 * step + 1).half_step;
+  const double highest = std::max({0.0, up.X_SF.height, down.X_SF.height});
+  return highest == 0.0 ? 0.0 : highest / up.via_height;
+}
+
 void CheckParameters(const HalfStepSequence& sequence, const HomotopyParameters& parameters) {
   const std::string complaint = ComplaintAbout(sequence, parameters);
   HALFSTEP_CHECK(complaint.empty(), complaint);

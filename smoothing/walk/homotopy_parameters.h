@@ -94,14 +94,20 @@ NaturalBound NaturalBoundOf(const HomotopyParameters& parameters, int junction);
 /// The bound of a junction's overlap at a point of the homotopy [s].
 double NaturalOverlapBound(const HomotopyParameters& parameters, int junction);
 
+/// The least height scale of a step with which its via point is no lower than its two footsteps; so
+/// high it has to be (smoothing/README.md, "The foot never goes below the floor"). 0 on flat
+/// ground.
+double LeastHeightScale(const HalfStepSequence& sequence, int step);
+
 /// An overlap may exceed its natural bound by this and still counts as within it [s].
 inline constexpr double kOverlapTolerance = 1e-12;
 /// The robot rests no longer than this at a junction [s].
 inline constexpr double kLongestRest = 3600.0;
 
 /// Throws std::logic_error unless the sizes fit the sequence, all values are finite and between
-/// `least` and `most` of their families (those of forms) or at least `least` (all), and no overlap
-/// exceeds its natural bound by more than kOverlapTolerance.
+/// `least` and `most` of their families (those of forms) or at least `least` (all), height scales
+/// are at least LeastHeightScale, and no overlap exceeds its natural bound by more than
+/// kOverlapTolerance.
 void CheckParameters(const HalfStepSequence& sequence, const HomotopyParameters& parameters);
 
 /// Lowers every overlap that is above its natural bound to it, and raises negative ones to 0 except

@@ -59,7 +59,7 @@ ParameterChoice EveryFamily() {
 
 ParameterChoice WithoutForms(ParameterChoice choice) {
   for (const ParameterFamily family : AllParameterFamilies()) {
-    if (Traits(family).of_form) *choice.flag(family) = false;
+    if (Traits(family).of_form && !Traits(family).of_heights) *choice.flag(family) = false;
   }
   return choice;
 }

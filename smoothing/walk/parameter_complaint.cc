@@ -48,6 +48,14 @@ std::string ComplaintAbout(const HalfStepSequence& sequence, const HomotopyParam
       return Named(family, i, value) + " (valid: " + Valid(traits) + ")";
     }
   }
+  for (int step = 0; step < sequence.num_steps(); ++step) {
+    const size_t at = static_cast<size_t>(step);
+    const double least = LeastHeightScale(sequence, step);
+    if (parameters.height_scales[at] >= least) continue;
+    return Named(ParameterFamily::kHeightScale, at, parameters.height_scales[at]) +
+           Formatted(" (valid: at least %.9g, so that the foot passes no lower than it stands)",
+                     least);
+  }
   for (int i = 0; i < sequence.num_junctions(); ++i) {
     const size_t at = static_cast<size_t>(i);
     const double bound = NaturalOverlapBound(parameters, i);

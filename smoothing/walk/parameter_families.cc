@@ -35,6 +35,9 @@ std::pair<double, double> UpToMost(const Row& row, const Bounds& bounds, double 
 std::pair<double, double> AboutPlanned(const Row& row, const Bounds& bounds, double planned) {
   return {std::max(row.least, planned - bounds[0]), std::min(row.most, planned + bounds[0])};
 }
+std::pair<double, double> Anywhere(const Row& row, const Bounds&, double) {
+  return {row.least, row.most};
+}
 std::pair<double, double> AboutZero(const Row&, const Bounds& bounds, double) {
   return {-bounds[0], bounds[0]};
 }
@@ -48,6 +51,11 @@ bool FootstepStays(const HalfStepSequence& sequence, int step) {
     return Nth(sequence.half_steps, 2 * k).half_step.swing();
   };
   return swing(step + 1) == swing(step) || swing(step + 2) != swing(step);
+}
+
+// The waist keeps its height where the swing foot does not stand lower.
+bool WaistKeepsHeight(const HalfStepSequence& sequence, int half_step) {
+  return Nth(sequence.half_steps, half_step).half_step.X_SF.height >= 0.0;
 }
 
 constexpr const char* kOfDuration = "of the planned duration of a half-step";
@@ -298,6 +306,40 @@ constexpr std::array<Row, kNumParameterFamilies> kRows = {{
      .bound_keys = {{{"most_footstep_yaw_rad", "of the turn of a footstep, to either side", 0.1, 0,
                       1, "rad"}}},
      .range_of = AboutZero},
+    {.family = ParameterFamily::kRiseBegin,
+     .name = "rise_begin",
+     .of = kHalfStep,
+     .part = ParameterPart::kProfile,
+     .column = "rise_begin",
+     .rank = 13,
+     .meaning =
+         "fraction of T from (down: to) the half-step's end on the floor, in which the waist "
+         "keeps its height",
+     .of_form = true,
+     .of_heights = true,
+     .shape = &HalfStepShape::rise_begin,
+     .stays = WaistKeepsHeight,
+     .least = 0.0,
+     .most = 0.75,
+     .chosen = &Choice::heights,
+     .range_of = Anywhere},
+    {.family = ParameterFamily::kRiseEnd,
+     .name = "rise_end",
+     .of = kHalfStep,
+     .part = ParameterPart::kProfile,
+     .column = "rise_end",
+     .rank = 14,
+     .meaning =
+         "fraction of T from (down: to) the half-step's end on the floor, by which the waist "
+         "has risen (down: begins to sink)",
+     .of_form = true,
+     .of_heights = true,
+     .shape = &HalfStepShape::rise_end,
+     .stays = WaistKeepsHeight,
+     .least = 0.85,
+     .most = 1.0,
+     .chosen = &Choice::heights,
+     .range_of = Anywhere},
 }};
 
 // The number of a half-step that a row is has to be told where its part has one, and nowhere else.
@@ -337,7 +379,8 @@ constexpr bool IsComplete(const Row& row) {
   return !row.name.empty() && !row.column.empty() && !row.meaning.empty() && row.least < row.most &&
          row.range_of != nullptr && TellsItsNumber(row) &&
          (row.of == kJunction) == (row.part == ParameterPart::kBegin) &&
-         (row.of_form || row.values != nullptr) && (row.always || row.bounds().size() > 0) &&
+         (row.of_form || row.values != nullptr) &&
+         (row.always || row.range_of == Anywhere || row.bounds().size() > 0) &&
          (row.always || !row.key.empty() || row.chosen != nullptr) &&
          (row.always || row.key.empty() || !row.key_meaning.empty());
 }

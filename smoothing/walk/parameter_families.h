@@ -52,6 +52,9 @@ struct ParameterFamilyTraits {
   std::string_view meaning;    ///< one line, for the column and for messages
   /// Its column is in tables only of walks in which a value of such a family is not the plan's.
   bool of_form = false;
+  /// It means something only where soles stand at different heights: no table of another walk has
+  /// its column, and what moves heights moves it.
+  bool of_heights = false;
   // Which number of `part` it is; null: none of these.
   double HalfStep::*number = nullptr;      ///< of the half-step
   double HalfStepShape::*shape = nullptr;  ///< of its shape

@@ -25,6 +25,8 @@ enum class ParameterFamily {
   kFootstepX,     ///< how far the footstep of a step is moved along its planned x
   kFootstepY,     ///< and along its planned y
   kFootstepYaw,   ///< how far it is turned
+  kRiseBegin,     ///< when the waist begins to rise in a half-step
+  kRiseEnd,       ///< when it has risen
 };
 /// How many families there are.
 inline constexpr int kNumParameterFamilies = NumEnumerators<ParameterFamily>();

@@ -34,8 +34,10 @@ ParameterTable::ParameterTable(const HalfStepSequence& sequence,
       const double planned = traits.planned(sequence, i);
       const bool chosen =
           choice.moves(family) && (traits.stays == nullptr || !traits.stays(sequence, i));
-      const auto [lower, upper] =
-          chosen ? traits.range(choice, planned) : std::pair{planned, planned};
+      auto [lower, upper] = chosen ? traits.range(choice, planned) : std::pair{planned, planned};
+      if (family == ParameterFamily::kHeightScale) {
+        lower = std::clamp(LeastHeightScale(sequence, i), lower, upper);
+      }
       rows_.push_back({{family, i}, planned, lower, upper, !chosen});
     }
   }
@@ -94,6 +96,14 @@ std::string ComplaintAbout(const HalfStepSequence& sequence,
       text << value << " " << traits.unit
            << " is too small (valid: " << (traits.least_itself ? "from " : "above ") << traits.least
            << ")";
+      return text.str();
+    }
+    const double least_height = parameter.family == ParameterFamily::kHeightScale
+                                    ? LeastHeightScale(sequence, parameter.index)
+                                    : 0.0;
+    if (value < least_height) {
+      text << value << " is too small (valid: from " << least_height
+           << ", where the foot passes no lower than it stands)";
       return text.str();
     }
     if (traits.of_form && value > traits.most) {

@@ -95,6 +95,8 @@ WalkJet PulledBack(const RobotModel& robot, const WalkJet& jet, const Posture& p
   by.first.segment<2>(kComX) += by_waist_velocity.head<2>();
   by.first[kWaistYaw] += by_yaw_rate - com_x * y_W.dot(by_waist_velocity);
   by.value.segment<2>(kComX) += by_waist.head<2>();
+  by.first[kWaistZ] += by_waist_velocity.z();
+  by.value[kWaistZ] += by_waist.z();
   by.value[kWaistYaw] +=
       by_yaw - com_x * (y_W.dot(by_waist) - yaw_rate * x_W.dot(by_waist_velocity));
   return by;

@@ -41,10 +41,10 @@ PostureTangent Differentiate(const RobotModel& robot, const WalkJet& jet, const 
   const double d_yaw = d.value[kWaistYaw], d_yaw_rate = d.first[kWaistYaw];
   PostureTangent tangent;
   tangent.waist_yaw = d_yaw;
-  tangent.waist << d.value.segment<2>(kComX), 0.0;
+  tangent.waist << d.value.segment<2>(kComX), d.value[kWaistZ];
   tangent.waist -= d_yaw * robot.com_x_B * y_W;
   Vector3d d_waist_velocity;
-  d_waist_velocity << d.first.segment<2>(kComX), 0.0;
+  d_waist_velocity << d.first.segment<2>(kComX), d.first[kWaistZ];
   d_waist_velocity -= robot.com_x_B * (d_yaw_rate * y_W - yaw_rate * d_yaw * x_W);
   for (Side side : {Side::kLeft, Side::kRight}) {
     const size_t s = static_cast<size_t>(Index(side));

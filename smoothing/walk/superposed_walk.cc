@@ -24,8 +24,6 @@ SuperposedWalk::SuperposedWalk(const HalfStepSequence& sequence,
       *number = traits.factor ? *number * value : value;
     }
     const Foothold& X_WS = placed[i].X_WS;
-    X_WS.CheckLevel();
-    half_step.X_SF.CheckLevel();
     pieces_.push_back({.half_step = half_step,
                        .planned = placed[i].half_step,
                        .X_WS = X_WS,
@@ -151,12 +149,16 @@ double SuperposedWalk::LeastHeight(int step, double begin, double end) const {
     const double sinking = down->tracks.lift_end() - down->tracks.lift_begin();
     return 1.0 - std::clamp((t - sinks) / sinking, 0.0, 1.0);
   };
-  const double height = up.half_step.via_height;
-  const double monotone =
-      height * (Smoothstep{}.At(risen(begin)).value + Smoothstep{}.At(left(end)).value - 1.0);
+  const double support = up.X_WS.height, via = support + up.half_step.via_height;
+  const double from = support + up.half_step.X_SF.height;
+  const double to = down == nullptr ? via : support + down->half_step.X_SF.height;
+  const double done = Smoothstep{}.At(risen(begin)).value;
+  const double still = Smoothstep{}.At(left(end)).value;
+  const double monotone = (1.0 - done) * from + (1.0 - still) * to + via * (done + still - 1.0);
   // Both are concave in between, so their sum is least at an end.
   const double sum = std::min(risen(begin) + left(begin), risen(end) + left(end));
-  return std::max(monotone, kSteepest * height * std::min(0.0, sum - 1.0));
+  const double lower = std::min(from, to);
+  return std::max(monotone, lower + kSteepest * (via - lower) * std::min(0.0, sum - 1.0));
 }
 
 bool SuperposedWalk::InAir(const LocalTime& at, Side foot) const {

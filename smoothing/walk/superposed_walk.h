@@ -38,8 +38,7 @@ struct WalkSensitivity {
 /// the overlaps. Source: [Perrin2011] §IV; smoothing/README.md, "The homotopy".
 class SuperposedWalk {
  public:
-  /// Throws std::logic_error when the parameters are not in bounds (CheckParameters), or when a
-  /// foot does not stand at height 0: the waist's height is no quantity of a walk yet.
+  /// Throws std::logic_error when the parameters are not in bounds (CheckParameters).
   SuperposedWalk(const HalfStepSequence& sequence, const HomotopyParameters& parameters);
 
   int num_half_steps() const { return static_cast<int>(pieces_.size()); }  ///< n
@@ -97,10 +96,11 @@ class SuperposedWalk {
   /// are included.
   bool MovesHorizontally(int step, const LocalTime& at) const;
 
-  /// A lower bound of the height of the swing sole of `step` [m] for all t in [begin, end] [s]. But
-  /// for rounding it is never below 0 while the overlap is within its natural bound. Precondition:
-  /// half-steps and flights begin and end outside of the interval, or at its ends. Source:
-  /// smoothing/README.md, "The foot never goes below the floor".
+  /// A lower bound of the height of the swing sole of `step` in W [m] for all t in [begin, end]
+  /// [s]. But for rounding it is never below the lower of the step's two footsteps while the
+  /// overlap is within its natural bound. Precondition: half-steps and flights begin and end
+  /// outside of the interval, or at its ends. Source: smoothing/README.md, "The foot never goes
+  /// below the floor".
   double LeastHeight(int step, double begin, double end) const;
 
   /// The walk that ends with half-step `last`: those after it never begin. It is this walk, to the

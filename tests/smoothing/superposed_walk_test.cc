@@ -141,11 +141,47 @@ TEST(SuperposedWalk, WithoutOverlapItIsTheConcatenationOfIsolatedHalfSteps) {
   }
 }
 
-TEST(SuperposedWalk, RefusesFootholdsAtAnotherHeight) {
-  const HalfStepSequence sequence =
-      MakeSequence(StandingFeet(), {{.side = Side::kRight, .X_WF = {Pose2{0.2, -0.105, 0}, 0.01}}},
-                   0.24, {}, std::make_shared<Lipm>());
-  EXPECT_THROW(SuperposedWalk(sequence, PlannedMotion(sequence)), std::logic_error);
+// At rest, with all of it from half-steps that end: the waist is over the lower sole with both feet
+// standing, and over the support sole at the via point.
+TEST(SuperposedWalk, TheWaistStandsOverTheLowerSole) {
+  WalkDraw draw(31, 0.15);
+  for (int i = 0; i < Draws(100); ++i) {
+    const HalfStepSequence sequence = draw.Sequence(4);
+    HomotopyParameters parameters = draw.Parameters(sequence, 0.0, 0.0);
+    const SuperposedWalk walk(sequence, parameters);
+    for (int k = 0; k < walk.num_half_steps(); ++k) {
+      const HalfStep& half_step = walk.half_step(k);
+      const WalkState end = walk.At(walk.end_of(k)).value;
+      const double left = end[kLeftZ], right = end[kRightZ], crouch = half_step.shape.crouch;
+      const double support = half_step.support == Side::kLeft ? left : right;
+      const bool up = half_step.kind == HalfStepKind::kUp;
+      EXPECT_NEAR(support, walk.X_WS(k).height, 1e-14);
+      EXPECT_NEAR(end[kWaistZ], (up ? support : std::min(left, right)) - crouch, 1e-14);
+      const double swing = half_step.swing() == Side::kLeft ? left : right;
+      EXPECT_NEAR(swing - support, up ? half_step.via_height : half_step.X_SF.height, 1e-14);
+      // It moves only where the swing foot stands lower.
+      const double begins = walk.At(walk.start_of(k)).value[kWaistZ];
+      if (half_step.X_SF.height >= 0.0) EXPECT_EQ(begins, end[kWaistZ]);
+    }
+  }
+}
+
+TEST(SuperposedWalk, RefusesAViaPointBelowAFootstep) {
+  const auto sequence = [](double via_height) {
+    const Foothold tread{Pose2{0.2, -0.105, 0}, 0.1};
+    return MakeSequence(StandingFeet(),
+                        {{.side = Side::kRight, .X_WF = tread, .via_height = via_height}}, 0.24, {},
+                        std::make_shared<Lipm>());
+  };
+  HomotopyParameters parameters = PlannedMotion(sequence(0.2));
+  EXPECT_NO_THROW(SuperposedWalk(sequence(0.2), parameters));
+  EXPECT_THROW(SuperposedWalk(sequence(0.099), PlannedMotion(sequence(0.099))), std::logic_error);
+  parameters.height_scales[0] = 0.499;
+  EXPECT_THROW(SuperposedWalk(sequence(0.2), parameters), std::logic_error);
+  EXPECT_EQ(ParameterTable(sequence(0.2), {}, EveryFamily())
+                .row({ParameterFamily::kHeightScale, 0})
+                .lower,
+            0.5);
 }
 
 TEST(SuperposedWalk, WithoutOverlapOnASupportSoleAtTheOriginItIsTheHalfStepBitForBit) {

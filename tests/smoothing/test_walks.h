@@ -32,7 +32,11 @@ class WalkDraw : public SequenceDraw {
   HomotopyParameters Parameters(const HalfStepSequence& sequence, double low, double high) {
     HomotopyParameters parameters = PlannedMotion(sequence);
     for (double& T : parameters.durations) T *= Uniform(0.8, 1.2);
-    for (double& eta : parameters.height_scales) eta = Uniform(0.1, 1.0);
+    for (size_t j = 0; j < parameters.height_scales.size(); ++j) {
+      const double least = LeastHeightScale(sequence, static_cast<int>(j));
+      parameters.height_scales[j] = std::max(Uniform(0.1, 1.0), least);
+      if (uneven()) parameters.height_scales[j] = Form(least + 0.02 * (1.0 - least), 1.0);
+    }
     for (double& offset : parameters.support_points) offset += Form(-0.03, 0.03);
     for (double& via : parameters.of(ParameterFamily::kViaLateral)) via += Form(-0.02, 0.03);
     for (double& ramp : parameters.of(ParameterFamily::kFootRamp)) ramp = Form(0.3, 0.45);
@@ -51,6 +55,10 @@ class WalkDraw : public SequenceDraw {
       parameters.footstep_xs[j] = Form(-0.01, 0.01);
       parameters.footstep_ys[j] = Form(-0.005, 0.005);
       parameters.footstep_yaws[j] = Form(-0.05, 0.05);
+    }
+    for (size_t i = 0; uneven() && i < sequence.half_steps.size(); ++i) {
+      parameters.of(ParameterFamily::kRiseBegin)[i] = Form(0.01, 0.74);
+      parameters.of(ParameterFamily::kRiseEnd)[i] = Form(0.86, 0.99);
     }
     for (int i = 0; i < sequence.num_junctions(); ++i) {
       const double bound = NaturalOverlapBound(parameters, i);
@@ -139,7 +147,7 @@ struct DrawnInstant {
         at(walk.Locate(t)) {}
 };
 
-/// Value, first and second derivative one below the other (39×1).
+/// Value, first and second derivative one below the other (42×1).
 inline Eigen::VectorXd Stacked(const WalkJet& jet) {
   Eigen::VectorXd all(3 * kNumQuantities);
   all << jet.value, jet.first, jet.second;

@@ -61,6 +61,25 @@ struct Instance {
   LocalTime at;
 };
 
+TEST(WalkSensitivity, AgreesWithDifferencesOnUnevenGround) {
+  WalkDraw draw(44, 0.15);
+  int of_rises = 0;
+  for (int i = 0; i < Draws(200); ++i) {
+    const Instance instance(&draw);
+    const auto function = [&](const Eigen::VectorXd& d) { return Stacked(instance.At(d)); };
+    const Eigen::MatrixXd jacobian = instance.Jacobian();
+    const DerivativeReport report =
+        CheckJacobian(function, Eigen::VectorXd::Zero(instance.size()), jacobian);
+    EXPECT_TRUE(report.Passed(1e-6)) << report.Describe();
+    for (const ParameterFamily family : {ParameterFamily::kRiseBegin, ParameterFamily::kRiseEnd}) {
+      for (int k = 0; k < instance.sequence.size(); ++k) {
+        of_rises += !jacobian.col(instance.Column({family, k})).isZero(0.0);
+      }
+    }
+  }
+  EXPECT_GT(of_rises, Draws(200) / 4);
+}
+
 TEST(WalkSensitivity, AgreesWithDifferencesInAllParameters) {
   WalkDraw draw(40);
   double worst = 0;

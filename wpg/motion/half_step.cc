@@ -1,5 +1,7 @@
 #include "wpg/motion/half_step.h"
 
+#include <algorithm>
+
 namespace halfstep {
 namespace {
 
@@ -13,6 +15,7 @@ WalkState HalfStep::OnFloor() const {
   WalkState x = WalkState::Zero();
   x.segment<2>(kComX) = x.segment<2>(kZmpX) = 0.5 * X_SF.Planar().position();
   x[kWaistYaw] = 0.5 * X_SF.yaw;
+  x[kWaistZ] = std::min(0.0, X_SF.height) - shape.crouch;
   SetFoot(swing(), X_SF, &x);
   return x;
 }
@@ -20,6 +23,7 @@ WalkState HalfStep::OnFloor() const {
 WalkState HalfStep::AtVia() const {
   WalkState x = WalkState::Zero();
   x.segment<2>(kComX) = x.segment<2>(kZmpX) = support_point();
+  x[kWaistZ] = 0.0 - shape.crouch;
   SetFoot(swing(), {via(), via_height}, &x);
   return x;
 }

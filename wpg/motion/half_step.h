@@ -16,6 +16,9 @@ namespace halfstep {
 ///   ──┴────────┴──────▶ x   Down: the time reverse, towards a new X_SF.
 ///            X_SF
 ///
+/// The waist stands over the lower of two soles, and over the support sole at the via point, as
+/// high as on the floor; so it rises (up) or sinks (down) only where the swing foot stands lower.
+///
 /// ZMP: bump on [0, t1], shift on [t1, t2], bump on [t2, T]. The foot is in the air only on (t2, T]
 /// (up) or [0, t1) (down). Left and right are mirror images.
 /// Source: [Perrin2011] §III; wpg/README.md, "Half-step".
@@ -24,7 +27,7 @@ struct HalfStep {
   HalfStepKind kind = HalfStepKind::kUp;  ///< up: towards the via point; down: from it
   Foothold X_SF = {};         ///< where the swing sole stands, seen from the support sole.
   double duration = 2.0;      ///< T [s]
-  double via_height = 0.25;   ///< [m] ≥ 0
+  double via_height = 0.25;   ///< above the support sole [m] ≥ 0; no lower than X_SF
   double via_lateral = 0.24;  ///< distance of the via point from the support sole's centre [m].
   double via_along = 0.0;     ///< how far the via point is ahead of that centre, along its x [m]
   HalfStepShape shape = {};   ///< times and forms, as fractions of T

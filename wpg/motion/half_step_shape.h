@@ -25,11 +25,20 @@ struct HalfStepShape {
   /// Where CoM and ZMP rest while the swing foot is at the via point: so far from the support
   /// sole's centre, along its y, towards the swing foot [m]. Below 0: away from it.
   double support_point = 0.0;
+  /// Where the swing foot stands lower than the support foot, the waist rises in an up half-step
+  /// from this fraction of T on, ∈ [0, 0.75], and sinks in a down half-step until this fraction
+  /// before its end.
+  double rise_begin = 0.525;
+  /// It has risen by this fraction of T, ∈ [0.85, 1]. In a down half-step: it begins to sink this
+  /// fraction before the end.
+  double rise_end = 1.0;
+  /// How far the waist is kept below where the robot file has it [m] ≥ 0, for higher steps.
+  double crouch = 0.0;
 
   /// All of them, in this order; one that is left out does not compile.
-  std::array<double, 6> numbers() const {
-    const auto& [a, b, c, d, e, f] = *this;
-    return {a, b, c, d, e, f};
+  std::array<double, 9> numbers() const {
+    const auto& [a, b, c, d, e, f, g, h, i] = *this;
+    return {a, b, c, d, e, f, g, h, i};
   }
   double t1() const { return 0.5 - 0.5 * shift; }  ///< of T
   double t2() const { return 0.5 + 0.5 * shift; }  ///< of T

@@ -18,7 +18,8 @@ std::array<Track, HalfStepTracks::kNumTracks> TracksOf(Side swing) {
            {foot(0), kFootProfile},
            {foot(1), kFootProfile},
            {foot(2), kLiftProfile},
-           {foot(3), kFootProfile}}};
+           {foot(3), kFootProfile},
+           {kWaistZ, kRiseProfile}}};
 }
 
 }  // namespace
@@ -33,10 +34,15 @@ HalfStepTracks::HalfStepTracks(const HalfStep& half_step, const MotionModel& mod
       start_(Transformed(X_WS, half_step.Start())) {
   const HalfStepKind kind = half_step.kind;
   const MotionModel::Proposal proposal = model.Propose(kind, shape_, duration_);
-  profiles_ = {proposal.com, proposal.zmp, WaistYawProfile(duration_),
-               FootProfile(kind, shape_, duration_), LiftProfile(kind, shape_, duration_)};
+  profiles_ = {proposal.com,
+               proposal.zmp,
+               WaistYawProfile(duration_),
+               FootProfile(kind, shape_, duration_),
+               LiftProfile(kind, shape_, duration_),
+               RiseProfile(kind, shape_, duration_)};
   const WalkState change = Transformed(X_WS, half_step.End()) - start_;
   for (Track& track : tracks_) track.change = change[track.quantity];
+  rises_ = change[kWaistZ] != 0.0;
 }
 
 WalkJet HalfStepTracks::At(double tau) const {
@@ -58,8 +64,8 @@ void HalfStepTracks::AddMotion(double tau, WalkJet* jet) const {
 
 void HalfStepTracks::AddSecondBounds(double from, double to, WalkState* bounds) const {
   if (to / duration_ <= 0.0 || from / duration_ >= 1.0) return;
-  std::array<double, kNumProfiles> second;
-  for (size_t i = 0; i < kNumProfiles; ++i) second[i] = profiles_[i]->SecondBound(from, to);
+  std::array<double, kNumProfiles> second{};
+  for (size_t i = 0; i < num_profiles(); ++i) second[i] = profiles_[i]->SecondBound(from, to);
   for (const Track& track : tracks_) {
     (*bounds)[track.quantity] += Nth(second, track.profile) * std::abs(track.change);
   }
@@ -69,6 +75,7 @@ void HalfStepTracks::AddThirdRanges(double from, double to, WalkThirds* thirds) 
   std::array<std::optional<Range>, kNumProfiles> thirds_of;
   for (const Track& track : tracks_) {
     if (!Nth(kQuantities, track.quantity).bounded_third) continue;
+    if (track.profile == kRiseProfile && !rises_) continue;
     std::optional<Range>& known = Nth(thirds_of, track.profile);
     if (!known) known = Nth(profiles_, track.profile)->ThirdRange(from, to);
     const Range& range = *known;
@@ -87,19 +94,19 @@ const Profile& HalfStepTracks::of(Quantity quantity) const {
 
 ProfileJets HalfStepTracks::Profiles(double tau) const {
   ProfileJets jets;
-  for (size_t i = 0; i < kNumProfiles; ++i) jets[i] = profiles_[i]->At(tau);
+  for (size_t i = 0; i < num_profiles(); ++i) jets[i] = profiles_[i]->At(tau);
   return jets;
 }
 
 ProfileJets HalfStepTracks::ProfilesByShape(double HalfStepShape::*number, double tau) const {
   ProfileJets jets;
-  for (size_t i = 0; i < kNumProfiles; ++i) jets[i] = profiles_[i]->ByShape(number, tau);
+  for (size_t i = 0; i < num_profiles(); ++i) jets[i] = profiles_[i]->ByShape(number, tau);
   return jets;
 }
 
 std::vector<double> HalfStepTracks::Knots() const {
   std::vector<double> knots;
-  for (const auto& profile : profiles_) profile->AddKnots(&knots);
+  for (size_t i = 0; i < num_profiles(); ++i) profiles_[i]->AddKnots(&knots);
   return knots;
 }
 

@@ -14,13 +14,14 @@
 namespace halfstep {
 
 /// The profiles of a half-step: the model's two, that of the waist's yaw, that of x, y and yaw of
-/// the swing foot, and that of its height.
+/// the swing foot, that of its height, and that of the waist's.
 enum ProfileIndex : int {
   kComProfile,
   kZmpProfile,
   kYawProfile,
   kFootProfile,
   kLiftProfile,
+  kRiseProfile,
   kNumProfiles
 };
 /// A jet of each, by ProfileIndex.
@@ -37,7 +38,7 @@ struct Track {
 /// rest. Immutable; copies share the profiles.
 class HalfStepTracks {
  public:
-  static constexpr int kNumTracks = 9;  ///< CoM, ZMP, waist's yaw, swing foot
+  static constexpr int kNumTracks = 10;  ///< CoM, ZMP, waist's yaw, swing foot, waist's z
 
   /// Seen from the frame in which the support sole stands at X_WS. Preconditions: those of the
   /// model and of the profiles (std::logic_error).
@@ -76,6 +77,9 @@ class HalfStepTracks {
   std::vector<double> Knots() const;
 
  private:
+  // Of the profiles that move something.
+  size_t num_profiles() const { return rises_ ? kNumProfiles : kRiseProfile; }
+
   HalfStepShape shape_;
   double duration_;
   RampedStep foot_;
@@ -83,6 +87,7 @@ class HalfStepTracks {
   std::array<std::shared_ptr<const Profile>, kNumProfiles> profiles_;
   std::array<Track, kNumTracks> tracks_;
   WalkState start_;
+  bool rises_ = false;  // whether the waist's height changes; if not, kRiseProfile is not asked
 };
 
 }  // namespace halfstep

@@ -89,20 +89,22 @@ class Chain {
   std::array<double, 6> from_base_;             // ‖ω̇ less that of waist or sole‖ at m
 };
 
-// Of an upright frame whose origin moves as `size` quantities from `x` on.
-RigidDrift UprightDrift(const IntervalMotion& motion, const WalkThirds& thirds, int x, int size,
+// Of an upright frame whose origin moves as the quantity `x`, the one after it, and `z`.
+RigidDrift UprightDrift(const IntervalMotion& motion, const WalkThirds& thirds, int x, int z,
                         int yaw) {
   const double h = motion.half_width;
   const WalkState &first = motion.jet.first, &second = motion.jet.second, &most = motion.second;
-  const auto norm = [&](const auto& values) { return values.segment(x, size).norm(); };
+  const auto norm = [&](const WalkState& values) {
+    return Vector3d(values[x], values[x + 1], values[z]).norm();
+  };
   RigidDrift drift;
   drift.speed = std::abs(first[yaw]);
   drift.acceleration = std::abs(second[yaw]);
   // A second derivative drifts by no more than the third lets it, and by no more than it can be.
   drift.turn1 = h * thirds.of(yaw).most();
   drift.turn1 = std::min(drift.turn1, drift.acceleration + most[yaw]);
-  drift.p2 = h * norm(WalkState(thirds.center.cwiseAbs() + thirds.radius));
-  drift.p2 = std::min(drift.p2, norm(WalkState(second.cwiseAbs() + most)));
+  drift.p2 = h * norm(thirds.center.cwiseAbs() + thirds.radius);
+  drift.p2 = std::min(drift.p2, norm(second.cwiseAbs() + most));
   drift.turn = h * std::min(most[yaw], drift.acceleration + drift.turn1);
   drift.p = h * (norm(first) + h * std::min(norm(most), norm(second) + drift.p2));
   drift.turned = h * drift.fastest();
@@ -114,12 +116,12 @@ RigidDrift UprightDrift(const IntervalMotion& motion, const WalkThirds& thirds, 
 RigidDrift DriftOfWaist(const RobotModel& robot, const IntervalMotion& motion,
                         const WalkThirds& thirds) {
   // The point below the CoM moves as that; the waist's origin is com_x_B behind it.
-  return UprightDrift(motion, thirds, kComX, 2, kWaistYaw).At(std::abs(robot.com_x_B));
+  return UprightDrift(motion, thirds, kComX, kWaistZ, kWaistYaw).At(std::abs(robot.com_x_B));
 }
 
 RigidDrift DriftOfSole(const IntervalMotion& motion, const WalkThirds& thirds, Side side) {
   const int foot = FootIndex(side);
-  return UprightDrift(motion, thirds, foot, 3, foot + 3);
+  return UprightDrift(motion, thirds, foot, foot + 2, foot + 3);
 }
 
 LegDrift LegDrift::Over(Side side, const IntervalMotion& motion, const RigidDrift& waist,

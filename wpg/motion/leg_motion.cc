@@ -10,15 +10,13 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Of an upright frame whose origin moves as the `size` quantities from `x` on.
-RigidMotion UprightMotion(const IntervalMotion& motion, const WalkThirds& thirds, int x, int size,
+// Of an upright frame whose origin moves as the quantity `x`, the one after it, and `height`.
+RigidMotion UprightMotion(const IntervalMotion& motion, const WalkThirds& thirds, int x, int height,
                           int yaw) {
   const double h = motion.half_width;
   const Vector3d z = Vector3d::UnitZ();
   const auto place = [&](const WalkState& values) {
-    Vector3d p(0, 0, 0);
-    p.head(size) = values.segment(x, size);
-    return p;
+    return Vector3d(values[x], values[x + 1], values[height]);
   };
   const Range third = thirds.of(yaw);
   RigidMotion frame;
@@ -101,14 +99,14 @@ class LinkChain {
 
 RigidMotion MotionOfWaist(const RobotModel& robot, const IntervalMotion& motion,
                           const WalkThirds& thirds) {
-  RigidMotion waist = UprightMotion(motion, thirds, kComX, 2, kWaistYaw);
-  waist.p.center.z() = robot.waist_height;
+  RigidMotion waist = UprightMotion(motion, thirds, kComX, kWaistZ, kWaistYaw);
+  waist.p.center.z() += robot.waist_height;
   return waist;
 }
 
 RigidMotion MotionOfSole(const IntervalMotion& motion, const WalkThirds& thirds, Side side) {
   const int foot = FootIndex(side);
-  return UprightMotion(motion, thirds, foot, 3, foot + 3);
+  return UprightMotion(motion, thirds, foot, foot + 2, foot + 3);
 }
 
 std::optional<LegMotion> LegMotion::Over(Side side, const IntervalMotion& motion,

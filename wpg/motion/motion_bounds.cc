@@ -24,6 +24,11 @@ double YawRate(const WalkJet& jet, Side side) {
 // √(x² + y²) of two quantities' sups.
 double Planar(const WalkState& x, int quantity) { return Hypot(x[quantity], x[quantity + 1]); }
 
+// Of three quantities: x, y and `z`.
+double InSpace(const WalkState& x, int quantity, int z) {
+  return x[z] == 0.0 ? Planar(x, quantity) : Hypot(Planar(x, quantity), x[z]);
+}
+
 }  // namespace
 
 MotionBounds::MotionBounds(const RobotModel& robot)
@@ -51,9 +56,10 @@ MotionBounds::BaseRates MotionBounds::WaistRates(const IntervalMotion& motion) c
   rates.yaw_acceleration = motion.second[kWaistYaw];
   rates.yaw_rate = std::abs(motion.jet.first[kWaistYaw]) + motion.RateChange(kWaistYaw);
   const double arm = std::abs(robot_.com_x_B);
-  rates.acceleration = Planar(motion.second, kComX) + arm * Turning(rates);
-  rates.speed = Planar(motion.jet.first, kComX) + motion.half_width * Planar(motion.second, kComX) +
-                arm * rates.yaw_rate;
+  const double second = InSpace(motion.second, kComX, kWaistZ);
+  rates.acceleration = second + arm * Turning(rates);
+  rates.speed =
+      InSpace(motion.jet.first, kComX, kWaistZ) + motion.half_width * second + arm * rates.yaw_rate;
   return rates;
 }
 
@@ -121,6 +127,7 @@ bool MotionBounds::BoundLeg(Side side, const BaseRates& waist, const LegRates& r
   second.head<2>() +=
       motion->second.segment<2>(kComX) +
       Eigen::Vector2d::Constant(Turning(waist) * hip_lever + Turning(sole) * ankle_lever);
+  second.z() += motion->second[kWaistZ];
   const Eigen::Vector3d rate = w_rate.cwiseAbs() + h * second;
   const Eigen::Vector3d most = w.cwiseAbs() + h * (w_rate.cwiseAbs() + 0.5 * h * second);
   const LegDemand demand{.half_square = rate.squaredNorm() + most.dot(second),

@@ -50,7 +50,7 @@ class MotionBounds {
  private:
   // Motion of the waist or of a sole over the interval: sups of its rates, in W unless said.
   struct BaseRates {
-    double speed = 0.0;             // of the frame's origin [m/s], horizontal for the waist
+    double speed = 0.0;             // of the frame's origin [m/s]
     double acceleration = 0.0;      // [m/s²]
     double yaw_rate = 0.0;          // [rad/s]
     double yaw_acceleration = 0.0;  // [rad/s²]

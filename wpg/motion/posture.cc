@@ -5,7 +5,8 @@ namespace halfstep {
 Posture SolvePosture(const RobotModel& robot, const WalkState& x) {
   Posture posture;
   const Pose2 X_WC{x[kComX], x[kComY], x[kWaistYaw]};
-  posture.X_WB = ToIsometry(X_WC * Pose2{-robot.com_x_B, 0.0, 0.0}, robot.waist_height);
+  posture.X_WB =
+      ToIsometry(X_WC * Pose2{-robot.com_x_B, 0.0, 0.0}, robot.waist_height + x[kWaistZ]);
   posture.reachable = true;
   const Eigen::Isometry3d X_BW = posture.X_WB.inverse();
   for (Side side : {Side::kLeft, Side::kRight}) {
@@ -28,7 +29,7 @@ bool SolveJointSpeeds(const RobotModel& robot, const WalkJet& jet, Posture* post
   const Eigen::Matrix3d R_BW = posture->X_WB.linear().transpose();
   const double yaw_rate = jet.first[kWaistYaw];
   const Eigen::Vector3d z{0, 0, 1};
-  posture->waist_velocity << jet.first.segment<2>(kComX), 0.0;
+  posture->waist_velocity << jet.first.segment<2>(kComX), jet.first[kWaistZ];
   posture->waist_velocity -= yaw_rate * robot.com_x_B * posture->X_WB.linear().col(1);
   for (Side side : {Side::kLeft, Side::kRight}) {
     const size_t s = static_cast<size_t>(Index(side));

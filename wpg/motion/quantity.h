@@ -8,7 +8,8 @@
 namespace halfstep {
 
 /// The quantities that a walk is made of, in the order of WalkState. Each is a row of kQuantities.
-/// Feet: sole centres; z is up from the plane z = 0 of the frame in which they are seen.
+/// Feet: sole centres; z is up from the plane z = 0 of the frame in which they are seen. The
+/// waist's z is how far it is above where it stands on that plane.
 enum Quantity : int {
   kComX,
   kComY,
@@ -23,6 +24,7 @@ enum Quantity : int {
   kRightY,
   kRightZ,
   kRightYaw,
+  kWaistZ,
   kNumQuantities
 };
 
@@ -60,6 +62,7 @@ inline constexpr std::array<QuantityTraits, kNumQuantities> kQuantities = {{
     {kRightY, "right_foot_y", "m", "right_foot_y_m", Component::kY, kLeftY},
     {kRightZ, "right_foot_z", "m", "right_foot_z_m", Component::kZ, kLeftZ},
     {kRightYaw, "right_foot_yaw", "rad", "right_foot_yaw_rad", Component::kYaw, kLeftYaw},
+    {kWaistZ, "waist_z", "m", "waist_z_m", Component::kZ, kWaistZ},
 }};
 
 namespace internal {

@@ -28,7 +28,7 @@ Vector6d UprightAcceleration(const Vector3d& p, const Vector3d& v, const Vector3
 Vector3d WaistAcceleration(const RobotModel& robot, const WalkJet& jet, const Posture& posture) {
   const Eigen::Matrix3d& R = posture.X_WB.linear();
   const double rate = jet.first[kWaistYaw];
-  Vector3d a(jet.second[kComX], jet.second[kComY], 0.0);
+  Vector3d a(jet.second[kComX], jet.second[kComY], jet.second[kWaistZ]);
   a -= robot.com_x_B * (jet.second[kWaistYaw] * R.col(1) - rate * rate * R.col(0));
   return a;
 }

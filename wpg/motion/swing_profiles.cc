@@ -91,6 +91,25 @@ class Lift final : public FormProfile<Smoothstep> {
   bool up_;
 };
 
+class Rise final : public FormProfile<Smoothstep> {
+ public:
+  Rise(HalfStepKind kind, const HalfStepShape& shape, double duration)
+      : FormProfile(RiseWindow(kind, shape), duration), up_(kind == HalfStepKind::kUp) {}
+
+  ProfileJet ByShape(double HalfStepShape::*number, double tau) const override {
+    const double sigma = time().Of(tau);
+    if (number == &HalfStepShape::rise_begin) {
+      return up_ ? time().Slope(form().ByBegin(sigma), 1.0)
+                 : time().Slope(form().ByEnd(sigma), -1.0);
+    }
+    if (number != &HalfStepShape::rise_end) return {};
+    return up_ ? time().Slope(form().ByEnd(sigma), 1.0) : time().Slope(form().ByBegin(sigma), -1.0);
+  }
+
+ private:
+  bool up_;
+};
+
 class WaistYaw final : public FormProfile<Smoothstep> {
  public:
   explicit WaistYaw(double duration) : FormProfile({}, duration) {}
@@ -111,6 +130,11 @@ Smoothstep LiftWindow(HalfStepKind kind, const HalfStepShape& shape) {
              : Smoothstep{shape.t1() - shape.lift_share * shape.t1(), shape.t1()};
 }
 
+Smoothstep RiseWindow(HalfStepKind kind, const HalfStepShape& shape) {
+  return kind == HalfStepKind::kUp ? Smoothstep{shape.rise_begin, shape.rise_end}
+                                   : Smoothstep{1.0 - shape.rise_end, 1.0 - shape.rise_begin};
+}
+
 std::shared_ptr<const Profile> FootProfile(HalfStepKind kind, const HalfStepShape& shape,
                                            double duration) {
   // Of the flight, t1 long, a tenth at least must be left to move in.
@@ -127,6 +151,14 @@ std::shared_ptr<const Profile> LiftProfile(HalfStepKind kind, const HalfStepShap
   HALFSTEP_CHECK(shape.lift_share >= 0.2 && shape.lift_share <= 1.0,
                  "lift_share = " << shape.lift_share);
   return std::make_shared<Lift>(kind, shape, duration);
+}
+
+std::shared_ptr<const Profile> RiseProfile(HalfStepKind kind, const HalfStepShape& shape,
+                                           double duration) {
+  HALFSTEP_CHECK(shape.rise_begin >= 0.0 && shape.rise_begin <= 0.75,
+                 "rise_begin = " << shape.rise_begin);
+  HALFSTEP_CHECK(shape.rise_end >= 0.85 && shape.rise_end <= 1.0, "rise_end = " << shape.rise_end);
+  return std::make_shared<Rise>(kind, shape, duration);
 }
 
 std::shared_ptr<const Profile> WaistYawProfile(double duration) {

@@ -23,16 +23,16 @@ WaistSlope::WaistSlope(const RobotModel& robot, const WalkJet& jet, const Postur
   const double yaw2 = jet.second[kWaistYaw];
   const double d_rate = d.first[kWaistYaw], d_yaw2 = d.second[kWaistYaw];
   const Vector3d x_W = posture.X_WB.linear().col(0), y_W = posture.X_WB.linear().col(1);
-  const auto horizontal = [](const WalkState& x) { return Vector3d(x[kComX], x[kComY], 0.0); };
+  const auto point = [](const WalkState& x) { return Vector3d(x[kComX], x[kComY], x[kWaistZ]); };
 
   // w = c − com_x x_W and its derivatives.
   const double com_x = robot.com_x_B;
   const Vector3d w = posture.X_WB.translation() - dynamics.O(), w1 = posture.waist_velocity;
-  const Vector3d dw = horizontal(d.value) - com_x * d_yaw * y_W;
-  const Vector3d dw1 = horizontal(d.first) - com_x * (d_rate * y_W - rate * d_yaw * x_W);
+  const Vector3d dw = point(d.value) - com_x * d_yaw * y_W;
+  const Vector3d dw1 = point(d.first) - com_x * (d_rate * y_W - rate * d_yaw * x_W);
   const Vector3d dw2 =
-      horizontal(d.second) - com_x * (d_yaw2 * y_W - yaw2 * d_yaw * x_W -
-                                      2.0 * rate * d_rate * x_W - rate * rate * d_yaw * y_W);
+      point(d.second) - com_x * (d_yaw2 * y_W - yaw2 * d_yaw * x_W - 2.0 * rate * d_rate * x_W -
+                                 rate * rate * d_yaw * y_W);
   displacement = Spatial(d_yaw * z, dw - d_yaw * z.cross(w));
   velocity = Spatial(d_rate * z, dw1 - d_rate * z.cross(w) - rate * z.cross(dw));
   acceleration = UprightAccelerationSlope(w, w1, rate, yaw2, dw, dw1, dw2, d_rate, d_yaw2);
@@ -64,6 +64,9 @@ void WaistGradient::AddTo(const RobotModel& robot, const WalkJet& jet, const Pos
   by->value.segment<2>(kComX) += by_w.head<2>();
   by->first.segment<2>(kComX) += by_w1.head<2>();
   by->second.segment<2>(kComX) += by_a.head<2>();
+  by->value[kWaistZ] += by_w.z();
+  by->first[kWaistZ] += by_w1.z();
+  by->second[kWaistZ] += by_a.z();
   by->value[kWaistYaw] +=
       displacement[2] - by_d.dot(carried) -
       com_x * (y_W.dot(by_w) - rate * x_W.dot(by_w1) - (yaw2 * x_W + rate * rate * y_W).dot(by_a));

@@ -9,7 +9,7 @@
 
 namespace halfstep {
 
-/// One value of each quantity (13×1), or a change of each: lengths [m], yaws [rad].
+/// One value of each quantity (14×1), or a change of each: lengths [m], yaws [rad].
 using WalkState = Eigen::Matrix<double, kNumQuantities, 1>;
 
 /// Value, first and second time derivative of all quantities at one instant.
