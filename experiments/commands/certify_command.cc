@@ -124,7 +124,9 @@ ExitStatus Certify(const CertifyCommand& command) {
   folder.Publish();
   if (!command.quiet) {
     std::cout << '\n'
-              << CertificateStatement(experiment.robot, evaluator.limits()) << "\n\n"
+              << CertificateStatement(experiment.robot, evaluator.limits(),
+                                      *experiment.scene.ground)
+              << "\n\n"
               << NotCoveredText(
                      NotCoveredBy(experiment.robot, experiment.scene, evaluator.limits()),
                      "not_covered in certificate.json");

@@ -31,16 +31,22 @@ double SoleShadows::LeastOver(const ZmpDrift& drift) const {
   // A corner rests, so it is the ZMP in the plane of its own sole that moves as seen from it.
   const double half_rise = 0.5 * heights_.rise();
   const std::array<ZmpDrift, 2> drifts = {drift.Raised(-half_rise), drift.Raised(half_rise)};
-  const auto of_corner = [&](const Vector2d& corner) -> const ZmpDrift& {
-    return Nth(drifts, Index(SoleOf(corner)));
+  const int n = hull_.size();
+  const auto edge = [&](int i) -> Vector2d { return hull_.corner((i + 1) % n) - hull_.corner(i); };
+  constexpr double kNone = 1e-9;  // shorter edges have no direction
+  bool shared = false;            // a corner that is nearly one of both soles
+  for (int i = 0; i < n; ++i) shared = shared || edge(i).norm() < kNone;
+  const auto fall = [&](int corner, const Vector2d& inward) {
+    const auto of = [&](Side side) { return Nth(drifts, Index(side)).Along(inward); };
+    return shared ? std::max(of(Side::kLeft), of(Side::kRight))
+                  : of(SoleOf(hull_.corner(corner % n)));
   };
   double least = Margin();
-  for (int i = 0; i < hull_.size(); ++i) {
-    const Vector2d a = hull_.corner(i), b = hull_.corner((i + 1) % hull_.size()), edge = b - a;
-    if (edge.norm() < 1e-9) continue;
-    const Vector2d inward = Vector2d(-edge.y(), edge.x()).normalized();
-    const double fall = std::max(of_corner(a).Along(inward), of_corner(b).Along(inward));
-    least = std::min(least, inward.dot(zmp_ - a) - fall);
+  for (int i = 0; i < n; ++i) {
+    if (edge(i).norm() < kNone) continue;
+    const Vector2d inward = Vector2d(-edge(i).y(), edge(i).x()).normalized();
+    const double inside = inward.dot(zmp_ - hull_.corner(i));
+    least = std::min(least, inside - std::max(fall(i, inward), fall(i + 1, inward)));
   }
   return least >= 0.0 ? least : -std::numeric_limits<double>::infinity();
 }
