@@ -295,6 +295,7 @@ PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
                       " plans at one height only, and the scene's ground has levels (valid: rrt, "
                       "astar, astar/classic)"});
   }
+  const auto goal_level = ChosenLevel(ground, "goal", {.name = config.goal.level});
   PlannedWalk walk{.config = config,
                    .plan = {},
                    .half_steps = {},
@@ -325,6 +326,7 @@ PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
                       .set = volumes.set,
                       .query = query,
                       .cost = config.planner.Cost()};
+  if (goal_level) request.goal.height = goal_level->height;
   if (HasLevels(ground)) {
     for (const GroundLevel& level : ground.Levels()) request.levels.push_back(level.height);
     std::ranges::sort(request.levels);
