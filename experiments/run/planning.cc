@@ -180,6 +180,13 @@ std::string MissedInPlace(const RobotModel& robot, const Scene& scene,
                           const ExperimentConfig& config) {
   const HalfStep prototype = PrototypeOf(config);
   const std::array<Foothold, 2> start = StartOf(config, robot, *scene.ground);
+  const double higher = std::abs(start[0].height - start[1].height);
+  if (higher > prototype.via_height) {
+    return Formatted(
+        "; one foot stands %.3g m higher than the other, and `half_step.via_height_m` "
+        "is %.3g",
+        higher, prototype.via_height);
+  }
   const Footstep footstep{.side = Side::kLeft,
                           .X_WF = Nth(start, Index(Side::kLeft)),
                           .via_height = prototype.via_height,
@@ -295,6 +302,7 @@ PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
                       " plans at one height only, and the scene's ground has levels (valid: rrt, "
                       "astar, astar/classic)"});
   }
+  const auto goal_level = ChosenLevel(ground, "goal", {.name = config.goal.level});
   PlannedWalk walk{.config = config,
                    .plan = {},
                    .half_steps = {},
@@ -325,6 +333,7 @@ PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
                       .set = volumes.set,
                       .query = query,
                       .cost = config.planner.Cost()};
+  if (goal_level) request.goal.height = goal_level->height;
   if (HasLevels(ground)) {
     for (const GroundLevel& level : ground.Levels()) request.levels.push_back(level.height);
     std::ranges::sort(request.levels);
@@ -333,7 +342,7 @@ PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
     request.workspace = {Eigen::Vector2d(w[0], w[1]), Eigen::Vector2d(w[2], w[3])};
   }
   request.start_is_free = [&](const HalfStep& up, const Foothold& X_WS) {
-    return certifier.Certifies(up, X_WS);
+    return up.X_SF.height <= up.via_height && certifier.Certifies(up, X_WS);
   };
   request.accepts = [&](const std::vector<Footstep>& footsteps) {
     return CertifyPlan(

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -62,6 +63,10 @@ class StepGraph {
   bool IsForbidden(const StepState& from, int k) const;  ///< whether Forbid() was called so
   std::int64_t queries() const { return queries_; }      ///< of half-steps, so far
 
+  /// Whether there is a level at that height [m], somewhere; true where all is at one height.
+  bool IsLevel(double height) const {
+    return request_.levels.empty() || std::ranges::binary_search(request_.levels, height);
+  }
   /// Whether the ground bears a sole there (HalfStepQuery::Bears).
   bool Bears(const Foothold& X_WF) const { return request_.query.Bears(X_WF); }
 

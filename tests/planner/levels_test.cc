@@ -136,6 +136,22 @@ TEST(LevelPlanning, ClimbsStairsAndComesDownAgain) {
   }
 }
 
+// A goal on a level is not reached on another one beside it.
+TEST(LevelPlanning, AGoalMayBeOnALevel) {
+  GoalRegion goal{.X_WG = {1.0, 0.0, 0.0}, .radius = 0.3};
+  const Foothold high({1.0, 0.1, 0.0}, 0.15), low = Foothold::Level({1.0, -0.1, 0.0});
+  EXPECT_TRUE(goal.ContainsLanding(Side::kLeft, high, low));
+  EXPECT_TRUE(goal.ContainsLanding(Side::kRight, low, high));
+  goal.height = 0.15;
+  EXPECT_TRUE(goal.ContainsLanding(Side::kLeft, high, low));
+  EXPECT_FALSE(goal.ContainsLanding(Side::kRight, low, high));
+  EXPECT_TRUE(goal.ContainsStance({high, low}));
+  goal.part = GoalPart::kMidFeet;
+  EXPECT_FALSE(goal.ContainsLanding(Side::kLeft, high, low));
+  EXPECT_FALSE(goal.ContainsStance({high, low}));
+  EXPECT_TRUE(goal.ContainsLanding(Side::kLeft, high, {low.Planar(), 0.15}));
+}
+
 // States in one cell are told apart by their level.
 TEST(LevelPlanning, CellsDifferByHeight) {
   const PoseCells cells;
