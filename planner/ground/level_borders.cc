@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <set>
 
 #include "planner/ground/stretches.h"
 #include "wpg/check.h"
@@ -42,17 +44,19 @@ LevelBorders::LevelBorders(const Ground& ground) {
   }
   tree_ = BoundsTree(boxes, 4);
   for (const GroundLevel& level : ground.Levels()) {
-    levels_.push_back({.height = level.height,
-                       .everywhere = level.height == ground.Floor(),
-                       .borders = {},
-                       .tree = {}});
+    const bool everywhere = level.height == ground.Floor();
+    if (everywhere) floor_level_ = level.number;
+    levels_.push_back(
+        {.height = level.height, .everywhere = everywhere, .borders = {}, .tree = {}});
   }
-  for (size_t solid = 0; solid < prisms_.size(); ++solid) {
-    for (size_t level = 0; level < levels_.size(); ++level) {
-      const bool bears = prisms_[solid].bears == static_cast<int>(level);
-      if (bears || IsInTheWay(prisms_[solid], levels_[level])) {
-        AddBorders(static_cast<int>(solid), &levels_[level], bears);
-      }
+  std::vector<std::vector<int>> bearers(levels_.size());
+  for (size_t i = 0; i < prisms_.size(); ++i) {
+    if (prisms_[i].bears >= 0) Nth(bearers, prisms_[i].bears).push_back(static_cast<int>(i));
+  }
+  for (size_t i = 0; i < levels_.size(); ++i) {
+    for (const int solid : bearers[i]) AddBorders(solid, &levels_[i], true);
+    for (const int solid : InTheWayOf(levels_[i], bearers[i])) {
+      AddBorders(solid, &levels_[i], false);
     }
   }
   for (Level& level : levels_) {
@@ -71,6 +75,23 @@ int LevelBorders::LevelAt(double z) const {
 
 bool LevelBorders::IsInTheWay(const Prism& prism, const Level& level) const {
   return prism.bottom <= level.height && level.height < prism.top;
+}
+
+// What is in the way of a level where it bears, or beside that.
+std::vector<int> LevelBorders::InTheWayOf(const Level& level,
+                                          const std::vector<int>& bearers) const {
+  std::set<int> all;
+  const auto add = [&](int i) {
+    if (IsInTheWay(Nth(prisms_, i), level)) all.insert(i);
+  };
+  if (level.everywhere) {
+    for (int i = 0; i < std::ssize(prisms_); ++i) add(i);
+  }
+  for (const int bearer : bearers) {
+    const Eigen::AlignedBox3d box = BoundsOfPoints(Nth(prisms_, bearer).polygon);
+    tree_.ForEachNear(box.center(), 0.5 * box.diagonal().norm() + 2.0 * kBeside, add);
+  }
+  return {all.begin(), all.end()};
 }
 
 // A part of a bearer's edge is a border where just outside no other bears and just inside nothing
@@ -179,6 +200,16 @@ LevelBorders::Nearest LevelBorders::NearestTo(const Eigen::Matrix2Xd& outline, c
     if (off.distance > deepest.distance) deepest = off;
   }
   return {-deepest.distance, deepest.solid};
+}
+
+std::vector<int> LevelBorders::LevelsNear(const Eigen::Matrix2Xd& outline,
+                                          const Pose2& X_WF) const {
+  std::set<int, std::greater<>> all;
+  if (floor_level_ >= 0) all.insert(floor_level_);
+  tree_.ForEachNear(InPlane(X_WF.position()), ReachOf(outline), [&](int i) {
+    if (Nth(prisms_, i).bears >= 0) all.insert(Nth(prisms_, i).bears);
+  });
+  return {all.begin(), all.end()};
 }
 
 bool LevelBorders::Bears(const Eigen::Matrix2Xd& outline, const Pose2& X_WF, int number) const {

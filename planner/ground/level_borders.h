@@ -39,6 +39,8 @@ class LevelBorders {
   /// How far inside its level a sole stands: `outline` is a convex polygon (2×k) in the sole's
   /// frame [m], at X_WF seen from above. Precondition: a level of the ground.
   Nearest NearestTo(const Eigen::Matrix2Xd& outline, const Pose2& X_WF, int level) const;
+  /// The levels that may bear a sole there, the last first: all on which some of it may lie.
+  std::vector<int> LevelsNear(const Eigen::Matrix2Xd& outline, const Pose2& X_WF) const;
   /// Whether all of the outline lies on the level and does not touch its border.
   bool Bears(const Eigen::Matrix2Xd& outline, const Pose2& X_WF, int level) const;
 
@@ -58,9 +60,9 @@ class LevelBorders {
     std::vector<Border> borders;
     BoundsTree tree;  // of borders
   };
-  class Edge;
 
   bool IsInTheWay(const Prism& prism, const Level& level) const;
+  std::vector<int> InTheWayOf(const Level& level, const std::vector<int>& bearers) const;
   void AddBorders(int solid, Level* level, bool as_bearer) const;
   bool IsOn(const Level& level, const Eigen::Vector2d& point) const;
   bool AreOn(const Level& level, const Eigen::Matrix2Xd& outline_W) const;
@@ -71,6 +73,7 @@ class LevelBorders {
   std::vector<Prism> prisms_;
   BoundsTree tree_;  // of prisms
   std::vector<Level> levels_;
+  int floor_level_ = -1;  // the level that bears everywhere but for what is in the way
 };
 
 }  // namespace halfstep

@@ -36,8 +36,10 @@ LevelGround::LevelGround(const std::vector<LevelSurface>& surfaces, bool has_flo
 
 std::optional<GroundLevel> LevelGround::LevelUnder(const Eigen::Matrix2Xd& outline,
                                                    const Pose2& X_WF, double below) const {
-  for (auto level = levels_.rbegin(); level != levels_.rend(); ++level) {
-    if (level->height <= below && borders_->Bears(outline, X_WF, level->number)) return *level;
+  // By number, so by height.
+  for (const int number : borders_->LevelsNear(outline, X_WF)) {
+    const GroundLevel& level = Nth(levels_, number);
+    if (level.height <= below && borders_->Bears(outline, X_WF, number)) return level;
   }
   return std::nullopt;
 }

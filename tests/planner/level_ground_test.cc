@@ -210,7 +210,9 @@ TEST(LevelBorders, TheDistanceIsThatOfTheNearestPlaceOffTheLevel) {
         } else {
           ++off;
           // A sliver between grid points may lie in the sole.
-          if (told < -2 * kStep) EXPECT_EQ(nearest, 0.0) << told;
+          if (told < -2 * kStep) {
+            EXPECT_EQ(nearest, 0.0) << told;
+          }
         }
       }
     }
