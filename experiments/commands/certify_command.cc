@@ -127,7 +127,7 @@ ExitStatus Certify(const CertifyCommand& command) {
   if (!command.quiet) {
     std::cout << '\n'
               << CertificateStatement(experiment.robot, evaluator.limits(),
-                                      !experiment.scene.ground->OnlyLevel())
+                                      *experiment.scene.ground)
               << "\n\n"
               << NotCoveredText(
                      NotCoveredBy(experiment.robot, experiment.scene, evaluator.limits()),

@@ -45,32 +45,6 @@ std::array<Pose2, 2> StartFromAbove(const ExperimentConfig& config, const RobotM
   return {Pose2{0.0, y, 0.0}, Pose2{0.0, -y, 0.0}};
 }
 
-// The level that a file chooses; none where it does not. Throws InputError where there is none
-// such.
-std::optional<GroundLevel> ChosenLevel(const Ground& ground, const std::string& who,
-                                       const LevelChoice& on) {
-  if (!on.name.empty()) {
-    const std::optional<GroundLevel> level = LevelNamed(ground, on.name);
-    if (level) return level;
-    std::vector<std::string> names;
-    for (const GroundSolid& solid : ground.Solids()) {
-      if (solid.bears) names.push_back(solid.name);
-    }
-    if (LevelNamed(ground, "floor")) names.push_back("floor");
-    if (names.size() > 20) names.resize(20);
-    throw InputError({who + ".level: the scene has no surface of the name " + Quote(on.name) +
-                      Suggestion(on.name, names)});
-  }
-  if (!on.z) return std::nullopt;
-  std::string heights;
-  for (const GroundLevel& level : ground.Levels()) {
-    if (std::abs(level.height - *on.z) < 0.5e-9) return level;
-    heights += (heights.empty() ? "" : ", ") + ShortestText(level.height);
-  }
-  throw InputError({who + ".z_m: no level of the scene is at z = " + ShortestText(*on.z) +
-                    " m (valid: " + heights + ")"});
-}
-
 // What keeps a sole from standing, as the rest of a sentence; "" where nobody knows.
 std::string WhyNotBorne(const Ground& ground, const Eigen::Matrix2Xd& outline, const Pose2& X_WF,
                         const std::optional<GroundLevel>& on) {
@@ -159,6 +133,30 @@ Place LoadPlace(const ExperimentConfig& config) {
     place.scene.name = "none";
   }
   return place;
+}
+
+std::optional<GroundLevel> ChosenLevel(const Ground& ground, const std::string& who,
+                                       const LevelChoice& on) {
+  if (!on.name.empty()) {
+    const std::optional<GroundLevel> level = LevelNamed(ground, on.name);
+    if (level) return level;
+    std::vector<std::string> names;
+    for (const GroundSolid& solid : ground.Solids()) {
+      if (solid.bears) names.push_back(solid.name);
+    }
+    if (LevelNamed(ground, "floor")) names.push_back("floor");
+    if (names.size() > 20) names.resize(20);
+    throw InputError({who + ".level: the scene has no surface of the name " + Quote(on.name) +
+                      Suggestion(on.name, names)});
+  }
+  if (!on.z) return std::nullopt;
+  std::string heights;
+  for (const GroundLevel& level : ground.Levels()) {
+    if (std::abs(level.height - *on.z) < 0.5e-9) return level;
+    heights += (heights.empty() ? "" : ", ") + ShortestText(level.height);
+  }
+  throw InputError({who + ".z_m: no level of the scene is at z = " + ShortestText(*on.z) +
+                    " m (valid: " + heights + ")"});
 }
 
 Foothold OnGround(const Ground& ground, const RobotModel& robot, const Pose2& X_WF,

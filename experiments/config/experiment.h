@@ -38,6 +38,10 @@ GivenWalkFiles GivenPaths(const ExperimentConfig& config);
 /// output directory becomes that folder itself.
 ExperimentConfig MovedTo(const std::filesystem::path& folder, const ExperimentConfig& config);
 
+/// The level that a file chooses of a ground; none where it does not. Throws InputError, which
+/// begins with `who`, where there is none such.
+std::optional<GroundLevel> ChosenLevel(const Ground& ground, const std::string& who,
+                                       const LevelChoice& on);
 /// Where a config's walk takes place.
 struct Place {
   RobotModel robot;  ///< as in Experiment

@@ -97,7 +97,8 @@ std::string ReferenceManifest(const ReferenceRequest& request, const ReferenceMa
       {"set", set},
       {"count", request.count},
       {"seed", request.seed},
-      {"statement", CertificateStatement(experiment.robot, maker.limits())},
+      {"statement",
+       CertificateStatement(experiment.robot, maker.limits(), *experiment.scene.ground)},
       {"demanded", demanded},
       {"not_covered",
        NotCoveredJson(NotCoveredBy(experiment.robot, experiment.scene, maker.limits()))}};

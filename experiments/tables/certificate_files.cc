@@ -97,7 +97,7 @@ std::string CertificateJson(const Experiment& experiment, const CertifiedFeasibi
       {"verdict", VerdictName(walk.answer.verdict)},
       {"message", certified ? "every demanded margin is kept at all times"
                             : AnswerWords(test.evaluator(), test.options(), walk.answer)},
-      {"statement", CertificateStatement(robot, limits, !experiment.scene.ground->OnlyLevel())},
+      {"statement", CertificateStatement(robot, limits, *experiment.scene.ground)},
       {"duration_s", walk.duration},
       {"resolution_s", test.options().resolution},
       {"demanded", demanded},

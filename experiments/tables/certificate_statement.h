@@ -1,8 +1,10 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "smoothing/margins/margin.h"
+#include "wpg/ground/ground.h"
 #include "wpg/robot/acceleration_limits.h"
 
 namespace halfstep {
@@ -46,12 +48,20 @@ inline constexpr char kTubeStatement[] =
     "nothing is said beyond the walk itself. Margins of self_clearance and clearance are less by "
     "what the tube can take from that pair or body. ";
 
-/// What a statement speaks of only where a config asks for it.
+/// What the pendulum's ZMP is inside of, in place of the support polygon, where soles may stand at
+/// different heights.
+inline constexpr char kPendulumOnLevels[] =
+    "hull of the soles that stand as it is seen from above, which is said of the plan alone";
+/// What the robot's is inside of.
+inline constexpr char kRobotOnLevels[] =
+    "hull of the shadows that the soles that stand cast along the floor's force";
+
+/// What a statement speaks of only where a config asks for it, or the ground is not flat.
 struct StatedOnRequest {
   bool double_support = false;  ///< whether it is demanded
   bool landing_speed = false;   ///< whether there is a limit
-  bool foothold = false;        ///< whether the ground has more levels than one, or borders
   bool tube = false;            ///< whether it holds in a tube
+  bool levels = false;          ///< whether the ground has more levels than one, or borders
 };
 
 /// The same for a robot and what is demanded of its walks: where its joint accelerations have
@@ -67,11 +77,17 @@ inline std::string CertificateStatement(const RobotModel& robot, const StatedOnR
                                       "robot file states none, "
                                     : "joint accelerations where the robot file limits them, ");
   }
+  if (stated.levels) {
+    constexpr std::string_view kPolygon = "support polygon";
+    for (const char* words : {kPendulumOnLevels, kRobotOnLevels}) {
+      statement.replace(statement.find(kPolygon), kPolygon.size(), words);
+    }
+  }
   if (stated.tube) insert("What is not covered", kTubeStatement);
   if (stated.landing_speed) {
     insert("ZMP of the linear", "how fast the swing foot sinks in its last centimetre, ");
   }
-  if (stated.foothold) {
+  if (stated.levels) {
     insert("ZMP of the whole robot, with",
            "how far inside one level of the ground the outline of every sole that stands lies, ");
   }
@@ -80,15 +96,14 @@ inline std::string CertificateStatement(const RobotModel& robot, const StatedOnR
   }
   return statement;
 }
-/// By its limits and demands; `has_levels`: whether the ground has more levels than one, or
-/// borders.
+/// By its limits and demands, and where it walks.
 inline std::string CertificateStatement(const RobotModel& robot, const MarginLimits& limits,
-                                        bool has_levels = false) {
+                                        const Ground& ground) {
   return CertificateStatement(
       robot, {.double_support = limits.demanded_of(MarginFamily::kDoubleSupport) != kNotDemanded,
               .landing_speed = limits.landing_speed.has_value(),
-              .foothold = has_levels,
-              .tube = limits.tube != Tube{}});
+              .tube = limits.tube != Tube{},
+              .levels = !ground.OnlyLevel()});
 }
 
 }  // namespace halfstep

@@ -98,8 +98,8 @@ std::string GapIn(const std::vector<const ClaimRow*>& rows, long count, double e
 }
 
 // What certificate.json says of the whole walk: verdict, statement, duration, limits and demands.
-void CheckHead(const CertificateText& certificate, const RobotModel& robot, double end,
-               Findings* findings) {
+void CheckHead(const CertificateText& certificate, const RobotModel& robot, const Scene& scene,
+               double end, Findings* findings) {
   if (certificate.verdict != "certified") {
     findings->Disagree("the certificate's verdict is " + Quote(certificate.verdict) + ": " +
                        Quote(certificate.message));
@@ -114,7 +114,8 @@ void CheckHead(const CertificateText& certificate, const RobotModel& robot, doub
   const StatedOnRequest stated{
       .double_support = certificate.demanded[kDoubleSupport] != kNotDemanded,
       .landing_speed = certificate.landing_speed.has_value(),
-      .tube = certificate.tube.has_value()};
+      .tube = certificate.tube.has_value(),
+      .levels = !scene.ground->OnlyLevel()};
   if (certificate.statement != CertificateStatement(robot, stated)) {
     findings->Disagree("the certificate's statement is not the one that is verified");
   }
@@ -147,8 +148,8 @@ std::optional<Family> FamilyNamed(const std::string& name, Findings* findings) {
 }
 
 void CheckArithmetic(const CertificateText& certificate, const std::vector<ClaimRow>& rows,
-                     const RobotModel& robot, double end, Findings* findings) {
-  CheckHead(certificate, robot, end, findings);
+                     const RobotModel& robot, const Scene& scene, double end, Findings* findings) {
+  CheckHead(certificate, robot, scene, end, findings);
   double smallest = std::numeric_limits<double>::infinity();
   std::string where;
   std::array<std::vector<const ClaimRow*>, kNumFamilies> by_family;

@@ -279,7 +279,7 @@ VerifiedStatement VerifyMethod(const VerifyOptions& options, const RunManifest& 
   const std::vector<PlayedRow> rows =
       ReadTrajectory(files.PathOf("trajectory.csv"), trajectory, robot);
   CheckWorstMargin(summary, folder, rows, robot, certificate, demanded.limits, findings);
-  CheckArithmetic(certificate, claimed, robot, rows.empty() ? 0 : rows.back().t, findings);
+  CheckArithmetic(certificate, claimed, robot, scene, rows.empty() ? 0 : rows.back().t, findings);
   const std::vector<NotCovered> not_covered = FindNotCovered(certificate, robot, scene);
   CheckNotCovered("certificate.json", certificate.not_covered, not_covered, findings);
   CheckNotCovered("manifest.json", manifest.not_covered,

@@ -14,6 +14,7 @@
 #include "wpg/files/yaml_fields.h"
 #include "wpg/geometry/rotation.h"
 #include "wpg/geometry/simple_polygon.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -189,6 +190,17 @@ double Obstacle::speed() const {
   const double by_waypoints =
       motion.waypoints.empty() ? 0.0 : motion.WaypointSpeed(X_WO, RadiusAboutOrigin(shape));
   return by_waypoints + motion.speed;
+}
+
+const Obstacle* Scene::ObstacleAt(int index) const {
+  return index < std::ssize(obstacles) ? &Nth(obstacles, index) : nullptr;
+}
+
+const std::string& Scene::NameOf(int index) const {
+  const Obstacle* obstacle = ObstacleAt(index);
+  return obstacle != nullptr
+             ? obstacle->name
+             : Nth(ground->Solids(), index - static_cast<int>(obstacles.size())).name;
 }
 
 Scene Scene::Emptied() const {

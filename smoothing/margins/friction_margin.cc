@@ -12,7 +12,9 @@ namespace {
 std::optional<FootFriction> FrictionAt(Instant* at) {
   const RobotDynamics* dynamics = at->dynamics();
   if (dynamics == nullptr) return std::nullopt;
-  return FootFriction::Of(*dynamics, at->support());
+  const StandingHeights heights = at->heights();
+  if (heights.level()) return FootFriction::Of(*dynamics, at->support(), heights.middle());
+  return FootFriction::OnLevels(*dynamics, at->jet().value, heights, at->robot().sole_size);
 }
 
 std::optional<NotCovered> SceneWithoutFriction(const RobotModel&, const Scene& scene) {
@@ -24,7 +26,8 @@ std::optional<NotCovered> SceneWithoutFriction(const RobotModel&, const Scene& s
 // slip or turn, from the whole robot's dynamics. Needed is what suffices for a pressure of two
 // points of the support polygon, as far before the ZMP as behind it: (‖f_t‖ + |n_z|/ρ)/f_z with
 // the floor's tangential force f_t [N], its yaw moment n_z about the ZMP [N m], its push f_z [N]
-// and the distance ρ of the points from the ZMP [m]. −∞ when a leg does not reach or is stretched
+// and the distance ρ of the points from the ZMP [m]. Where two soles stand at different heights,
+// the polygon is a section between them (SoleSection). −∞ when a leg does not reach or is stretched
 // to the singularity, masses are not known, the floor does not push, or the ZMP is outside.
 // Subject: the step in the air, or −1. Where nothing is demanded (kNotDemanded) it has no rows,
 // and its proofs say nothing. Source: wpg/README.md, "Friction that is needed"; [Caron2015].
@@ -83,9 +86,13 @@ class FrictionMargin final : public SupportFamily {
     if (margin.value >= mid.demanded(family())) {
       const auto friction = FrictionAt(&mid);
       const double spare = margin.value - mid.demanded(family()) - place_.rounding.friction;
-      change = friction->Drift(interval.drift(), interval.zmp_drift());
+      const double up = friction->height() - mid.heights().middle();
+      const ZmpDrift& zmp = interval.zmp_drift();
+      change = friction->Drift(interval.drift(), up == 0.0 ? zmp : zmp.Raised(up));
       const ContactRate* rate = change <= spare ? nullptr : interval.contact_rate();
-      if (rate != nullptr) change = std::min(change, friction->Drift(*rate));
+      if (rate != nullptr) {
+        change = std::min(change, friction->Drift(up == 0.0 ? *rate : rate->Raised(up)));
+      }
       change += place_.rounding.friction;
     }
     tightest->Add(margin, change);

@@ -1,5 +1,7 @@
 #include "smoothing/margins/instant.h"
 
+#include <algorithm>
+
 #include "wpg/robot/gravity.h"
 
 namespace halfstep {
@@ -59,9 +61,22 @@ const SupportPolygon& Instant::support() {
   return *support_;
 }
 
+StandingHeights Instant::heights() const {
+  if (step_ < 0) return {jet_.value, std::nullopt};
+  return {jet_.value, Opposite(swing())};
+}
+
 WalkThirds MarginInterval::Thirds() const {
   const double middle = mid.t(), h = motion.half_width;
   return mid.walk().ThirdRanges(middle - h, middle + h);
+}
+
+double MarginInterval::LeastSole(Side side) const {
+  const int z = FootIndex(side) + 2, step = mid.step_in_air();
+  const double least = motion.jet.value[z] - motion.Change(z);
+  if (step < 0 || mid.swing() != side) return least;
+  const double t = mid.t(), h = motion.half_width;
+  return std::max(least, mid.walk().LeastHeight(step, t - h, t + h));
 }
 
 const RobotDrift& MarginInterval::drift() const {
@@ -73,15 +88,16 @@ const RobotDrift& MarginInterval::drift() const {
 
 const ZmpDrift& MarginInterval::zmp_drift() const {
   if (!zmp_drift_) {
-    zmp_drift_ = ZmpDrift::Over(mid.robot(), motion, Thirds(), drift(), *mid.dynamics(), kGravity);
+    zmp_drift_ = ZmpDrift::Over(mid.robot(), motion, Thirds(), drift(), *mid.dynamics(), kGravity,
+                                mid.heights().middle());
   }
   return *zmp_drift_;
 }
 
 const ContactRate* MarginInterval::contact_rate() const {
   if (!contact_rate_) {
-    contact_rate_ =
-        ContactRate::Over(mid.robot(), motion, Thirds(), drift(), *mid.dynamics(), kGravity);
+    contact_rate_ = ContactRate::Over(mid.robot(), motion, Thirds(), drift(), *mid.dynamics(),
+                                      kGravity, mid.heights().middle());
   }
   return *contact_rate_ ? &**contact_rate_ : nullptr;
 }

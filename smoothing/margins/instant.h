@@ -10,6 +10,7 @@
 #include "wpg/motion/posture.h"
 #include "wpg/motion/robot_drift.h"
 #include "wpg/motion/robot_dynamics.h"
+#include "wpg/motion/standing_heights.h"
 #include "wpg/motion/zmp_drift.h"
 
 namespace halfstep {
@@ -56,8 +57,11 @@ class Instant {
   const RobotDynamics* dynamics();
   /// The same where masses are not known: then it has velocities and accelerations only.
   const RobotDynamics* motion();
-  /// What supports the robot there (SupportAt), made when it is first asked for.
+  /// The soles that support the robot there, seen from above (SupportAt); made when it is first
+  /// asked for.
   const SupportPolygon& support();
+  /// The heights at which these soles stand.
+  StandingHeights heights() const;
   MarginScratch& scratch() const { return scratch_; }  ///< what families remember between instants
 
  private:
@@ -89,13 +93,18 @@ class MarginInterval {
   const IntervalMotion& motion;  ///< bounds of the motion around it
   const bool with_margins;       ///< whether margins are told where a bound would do
 
+  /// No lower than here is a sole within the interval, in W [m].
+  double LeastSole(Side side) const;
+
   /// How much the motion of all bodies differs from that at the midpoint. Precondition:
   /// mid.motion() is not null. Where masses are not known, what it says of masses means nothing.
   const RobotDrift& drift() const;
-  /// How far the robot's ZMP goes. Precondition: there is one at the midpoint.
+  /// How far the robot's ZMP goes in the plane halfway between the soles that stand
+  /// (StandingHeights::middle). Precondition: there is one at the midpoint.
   const ZmpDrift& zmp_drift() const;
-  /// How fast what the floor gives changes; null where the interval is too long to say. It costs
-  /// several times as much as the drifts, and says more. Precondition: as zmp_drift().
+  /// How fast what the floor gives changes, about the ZMP of that plane; null where the interval is
+  /// too long to say. It costs several times as much as the drifts, and says more. Precondition: as
+  /// zmp_drift().
   const ContactRate* contact_rate() const;
 
  private:

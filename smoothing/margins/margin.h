@@ -77,8 +77,8 @@ struct Margin {
   /// support: the half-step. Reach, joints, joint speeds and accelerations, torques: 6·Index(Side)
   /// + joint. Clearances and ground: index of RobotModel::bodies.
   int subject = -1;
-  /// Index of the obstacle (clearance), second body (self-clearance), area (no-step) or solid of
-  /// the ground (foothold).
+  /// Index of the obstacle or solid (clearance, floor; Scene::NameOf), second body
+  /// (self-clearance), area (no-step) or solid of the ground (foothold).
   int other = -1;
   /// Not −1: found in the stop branch after this half-step; `at` and `t` are times of the branch.
   int stop_after = -1;

@@ -10,6 +10,7 @@
 #include "planner/scene/scene.h"
 #include "smoothing/margins/body_clearances.h"
 #include "smoothing/margins/body_heights.h"
+#include "smoothing/margins/foot_solids.h"
 #include "smoothing/margins/rounding.h"
 #include "smoothing/margins/work.h"
 #include "wpg/geometry/foothold.h"
@@ -30,6 +31,7 @@ struct MarginPlace {
         clearances(robot, scene),
         heights(robot, scene.ground->Floor()),
         areas(scene, robot.sole_outline),
+        solids(robot, scene),
         levels(*scene.ground),
         rounding(robot) {}
   MarginPlace(const MarginPlace&) = delete;
@@ -41,6 +43,7 @@ struct MarginPlace {
   BodyClearances clearances;  ///< of the robot's bodies in the scene
   BodyHeights heights;        ///< of the robot's bodies above the floor
   NoStepAreas areas;          ///< of the scene, for the robot's soles
+  FootSolids solids;          ///< of the scene's ground, for the robot's feet
   LevelBorders levels;        ///< of the scene's ground
   Rounding rounding;          ///< of the robot's walks
 };

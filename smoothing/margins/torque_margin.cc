@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -18,12 +19,27 @@ namespace {
 // How the feet carry the robot; none where nothing can be said.
 std::optional<FootLoads> LoadsAt(Instant* at) {
   const RobotDynamics* dynamics = at->dynamics();
-  const auto zmp = dynamics == nullptr ? std::nullopt : dynamics->Zmp();
+  const StandingHeights heights = at->heights();
+  const auto zmp = dynamics == nullptr ? std::nullopt : dynamics->Zmp(heights.of(Side::kLeft));
   if (!zmp) return std::nullopt;
   if (at->step_in_air() >= 0) return FootLoads::OneFoot(Opposite(at->swing()));
   const WalkState& x = at->jet().value;
-  return FootLoads::BothFeet(FootPose(x, Side::kLeft), FootPose(x, Side::kRight),
-                             at->robot().sole_size, *zmp);
+  const Eigen::Vector2d& sole_size = at->robot().sole_size;
+  if (heights.level()) {
+    return FootLoads::BothFeet(FootPose(x, Side::kLeft), FootPose(x, Side::kRight), sole_size,
+                               *zmp);
+  }
+  return FootLoads::OnLevels(x, heights, sole_size,
+                             {*zmp, *dynamics->Zmp(heights.of(Side::kRight))});
+}
+
+// How far the ZMP goes within an interval in which both feet stand, in the plane of each sole.
+double ZmpMoved(const MarginInterval& interval) {
+  const ZmpDrift& drift = interval.zmp_drift();
+  const StandingHeights heights = interval.mid.heights();
+  if (heights.level()) return drift.Most();
+  const double half_rise = 0.5 * heights.rise();
+  return std::max(drift.Raised(half_rise).Most(), drift.Raised(-half_rise).Most());
 }
 
 ByLegs TorquesAt(const RobotDynamics& dynamics, const FootLoads& loads) {
@@ -42,7 +58,7 @@ std::vector<ByLegs> TorqueSlopes(Instant* at, const FootLoads& loads, SlackSink*
     const PostureTangent& tangent = rows->Tangents(at)[i];
     const DynamicsSlope slope(at->robot(), at->jet(), at->posture(), dynamics,
                               {rows->sensitivities[i].jet, tangent.q, tangent.speeds});
-    const Eigen::Vector2d zmp = dynamics.ZmpSlope(slope.contact());
+    const Eigen::Vector2d zmp = dynamics.ZmpSlope(slope.contact(), at->heights().of(Side::kLeft));
     ByLegs& of_legs = slopes.emplace_back();
     for (const Side side : {Side::kLeft, Side::kRight}) {
       Nth(of_legs, Index(side)) =
@@ -119,7 +135,7 @@ class TorqueMargin final : public JointSizeFamily<TorqueMargin> {
     }
     const bool both = mid.step_in_air() < 0;
     const TorqueDrift drift(interval.motion, interval.drift(), *mid.dynamics(), *loads,
-                            both ? interval.zmp_drift().Most() : 0.0, kGravity);
+                            both ? ZmpMoved(interval) : 0.0, kGravity);
     const ByLegs drifts = {drift.Of(Side::kLeft), drift.Of(Side::kRight)};
     ForEachJoint([&](size_t s, int j, const LegJoint& joint, int subject) {
       tightest->Add(Of(Limit(mid, joint) - std::abs(torques[s][j]), subject),

@@ -49,6 +49,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   });
   if (!all) return 0;
   verify::CheckAgainstConfig(certificate, robot, {}, &findings);
-  verify::CheckArithmetic(certificate, claims, robot, rows.empty() ? 0 : rows.back().t, &findings);
+  verify::CheckArithmetic(certificate, claims, robot, Scene{}, rows.empty() ? 0 : rows.back().t,
+                          &findings);
   return 0;
 }

@@ -83,7 +83,7 @@ Findings FindingsOf(Of check, const Material& m) {
       CheckRowsOnWalk(m.rows, walk, 0.005, walk.end(), &findings);
       break;
     case Of::kArithmetic:
-      CheckArithmetic(m.certificate, m.claims, m.robot, m.rows.back().t, &findings);
+      CheckArithmetic(m.certificate, m.claims, m.robot, Scene{}, m.rows.back().t, &findings);
       break;
     case Of::kMotion:
     case Of::kOverlaps:

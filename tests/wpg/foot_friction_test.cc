@@ -9,6 +9,7 @@
 
 #include "tests/draws.h"
 #include "tests/wpg/algebra_draw.h"
+#include "tests/wpg/asking_robot.h"
 #include "tests/wpg/hrp2.h"
 #include "wpg/motion/foot_loads.h"
 #include "wpg/motion/motion_bounds.h"
@@ -22,52 +23,6 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-
-constexpr double kEarth = 9.81;
-
-// What the floor gives: a pull and a push, and a yaw moment about the ZMP.
-struct Given {
-  Vector2d zmp{0, 0}, pull{0, 0};
-  double turn = 0.0, push = 0.0;
-};
-
-// The robot at rest on both feet.
-WalkJet Standing(const RobotModel& robot) {
-  WalkJet still;
-  still.value[kLeftY] = 0.5 * robot.standing_width;
-  still.value[kRightY] = -0.5 * robot.standing_width;
-  return still;
-}
-
-// A robot of which only the waist has mass, and that on the floor below the CoM, so that it can ask
-// for whatever the floor is to give.
-class AskingRobot {
- public:
-  AskingRobot() : robot_(LoadRobot(kHrp2)) {
-    for (auto& leg : robot_.masses.links) leg.fill({});
-    robot_.masses.waist = {.mass = 0.0,
-                           .com = {robot_.com_x_B, 0.0, -robot_.waist_height},
-                           .inertia = Vector3d(0, 0, 1).asDiagonal()};
-    jet_ = Standing(robot_);
-  }
-
-  RobotDynamics That(const Given& given) {
-    robot_.masses.waist.mass = given.push / kEarth;
-    WalkJet jet = jet_;
-    jet.value.segment<2>(kComX) = given.zmp;
-    jet.second.segment<2>(kComX) = given.pull * (kEarth / given.push);
-    jet.second[kWaistYaw] = given.turn;
-    Posture posture = SolvePosture(robot_, jet.value);
-    EXPECT_TRUE(posture.reachable && SolveJointSpeeds(robot_, jet, &posture));
-    return {robot_, jet, posture, kEarth};
-  }
-  const RobotModel& robot() const { return robot_; }
-  const WalkJet& still() const { return jet_; }
-
- private:
-  RobotModel robot_;
-  WalkJet jet_;
-};
 
 // About the ZMP at m: what there is after a while, of a moment and a force that have changed.
 Given After(const Given& at_m, const Vector3d& moment, const Vector3d& force) {

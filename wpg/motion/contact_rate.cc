@@ -41,12 +41,19 @@ void ContactRate::Add(const SpatialInertia& inertia, const RigidMotion& com, con
   force += inertia.mass * com.p3;
 }
 
+ContactRate ContactRate::Raised(double by) const {
+  ContactRate raised = *this;
+  raised.moment = moment - Cross({by * Vector3d(tilt.x(), tilt.y(), 1.0), 0.0}, force);
+  return raised;
+}
+
 std::optional<ContactRate> ContactRate::Over(const RobotModel& robot, const IntervalMotion& motion,
                                              const WalkThirds& thirds, const RobotDrift& of_robot,
-                                             const RobotDynamics& at_m, double gravity) {
-  Vector3d p(0, 0, 0);
-  p.head<2>() = *at_m.Zmp();
-  ContactRate rate{.half_width = motion.half_width, .moment = {}, .force = {}};
+                                             const RobotDynamics& at_m, double gravity,
+                                             double height) {
+  Vector3d p(0, 0, height);
+  p.head<2>() = *at_m.Zmp(height);
+  ContactRate rate{.half_width = motion.half_width, .moment = {}, .force = {}, .tilt = at_m.Tilt()};
   const auto add = [&](const RobotDynamics::Body& body, const RigidMotion& its_motion) {
     const Vector3d com = at_m.O() + body.inertia.com;
     rate.Add(body.inertia, its_motion.At(com - its_motion.p.center), p, gravity);

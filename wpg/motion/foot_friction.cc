@@ -18,29 +18,49 @@ double YawMoment(const Vector2d& arm, const Vector2d& force) {
 }  // namespace
 
 std::optional<FootFriction> FootFriction::Of(const RobotDynamics& dynamics,
-                                             const SupportPolygon& polygon) {
-  const auto zmp = dynamics.Zmp();
+                                             const SupportPolygon& polygon, double height) {
+  const auto zmp = dynamics.Zmp(height);
   if (!zmp || !(polygon.Margin(*zmp) > 0.0)) return std::nullopt;
-  return FootFriction(dynamics, polygon, *zmp);
+  FootFriction friction(dynamics, polygon, *zmp, height);
+  for (int i = 0; i < polygon.size(); ++i) {
+    const Vector2d edge = polygon.corner((i + 1) % polygon.size()) - polygon.corner(i);
+    if (edge.norm() < 1e-9) continue;
+    const Reach reach = friction.ReachAlong(edge.normalized());
+    if (reach.distance <= friction.reach_.distance) continue;
+    friction.reach_ = reach;
+    friction.along_ = edge.normalized();
+  }
+  return friction;
+}
+
+std::optional<FootFriction> FootFriction::OnLevels(const RobotDynamics& dynamics,
+                                                   const WalkState& x,
+                                                   const StandingHeights& heights,
+                                                   const Vector2d& sole_size) {
+  const auto left = dynamics.Zmp(heights.of(Side::kLeft)),
+             right = dynamics.Zmp(heights.of(Side::kRight));
+  if (!left || !right) return std::nullopt;
+  const Pose2 X_WL = FootPose(x, Side::kLeft), X_WR = FootPose(x, Side::kRight);
+  const SoleSection section = SoleSection::Widest(X_WL, X_WR, sole_size, {*left, *right});
+  if (!(section.room > 0.0)) return std::nullopt;
+  const double height = heights.of(Side::kLeft) + section.share * heights.rise();
+  FootFriction friction(dynamics, SupportPolygon::Section(X_WL, X_WR, sole_size, section.share),
+                        *dynamics.Zmp(height), height);
+  friction.around_ = SoleSection::kAround;
+  friction.along_ = section.along;
+  friction.reach_ = {section.room, section.normal};
+  return friction;
 }
 
 FootFriction::FootFriction(const RobotDynamics& dynamics, const SupportPolygon& polygon,
-                           const Vector2d& zmp)
+                           const Vector2d& zmp, double height)
     : dynamics_(dynamics),
       polygon_(polygon),
       zmp_(zmp),
       pull_(dynamics.contact().segment<2>(3)),
       turn_(dynamics.contact()[2] - YawMoment(zmp - dynamics.O().head<2>(), pull_)),
-      push_(dynamics.contact()[5]) {
-  for (int i = 0; i < polygon.size(); ++i) {
-    const Vector2d edge = polygon.corner((i + 1) % polygon.size()) - polygon.corner(i);
-    if (edge.norm() < 1e-9) continue;
-    const Reach reach = ReachAlong(edge.normalized());
-    if (reach.distance <= reach_.distance) continue;
-    reach_ = reach;
-    along_ = edge.normalized();
-  }
-}
+      push_(dynamics.contact()[5]),
+      height_(height) {}
 
 template <typename Visit>
 void FootFriction::ForEachReach(const Vector2d& direction, const Visit& visit) const {
@@ -48,7 +68,7 @@ void FootFriction::ForEachReach(const Vector2d& direction, const Visit& visit) c
     const Vector2d a = polygon_.corner(i), edge = polygon_.corner((i + 1) % polygon_.size()) - a;
     if (edge.norm() < 1e-9) continue;
     const Vector2d inward = Vector2d(-edge.y(), edge.x()).normalized();
-    const double share = std::abs(inward.dot(direction));
+    const double share = std::max(std::abs(inward.dot(direction)), around_);
     if (share < 1e-9) continue;
     visit(Reach{inward.dot(zmp_ - a) / share, inward / share});
   }
@@ -69,7 +89,7 @@ Vector6d FootFriction::Gradient() const {
   const Vector2d by_zmp = by_turn * Vector2d(-pull_.y(), pull_.x()) -
                           std::abs(turn_) / (distance * distance) * reach_.normal;
   const Vector2d arm = zmp_ - dynamics_.O().head<2>();
-  Vector6d gradient = dynamics_.ZmpGradient(by_zmp);
+  Vector6d gradient = dynamics_.ZmpGradient(by_zmp, height_);
   gradient[2] += by_turn;
   gradient.segment<2>(3) += by_turn * Vector2d(arm.y(), -arm.x());
   if (pull > 0.0) gradient.segment<2>(3) += pull_ / pull;

@@ -1,6 +1,9 @@
 #include "wpg/motion/foot_loads.h"
 
 #include <algorithm>
+#include <limits>
+
+#include "wpg/motion/robot_dynamics.h"
 
 namespace halfstep {
 namespace {
@@ -38,6 +41,11 @@ Vector6d Couple(double product, const Vector2d& between) {
   return couple;
 }
 
+// What of it a right sole that is higher by a metre takes off: λ(1 − λ) f_t × ẑ.
+Vector6d CoupleOfRise(double product, const Vector6d& wrench) {
+  return Couple(product, wrench.segment<2>(3));
+}
+
 }  // namespace
 
 FootLoads FootLoads::OneFoot(Side support) {
@@ -48,34 +56,64 @@ FootLoads FootLoads::OneFoot(Side support) {
 
 FootLoads FootLoads::BothFeet(const Pose2& X_WL, const Pose2& X_WR, const Vector2d& sole_size,
                               const Vector2d& zmp) {
-  const FromSole left(X_WL, sole_size, zmp), right(X_WR, sole_size, zmp);
+  return Shared(X_WL, X_WR, sole_size, {zmp, zmp}, 0.0);
+}
+
+std::optional<FootLoads> FootLoads::OnLevels(const WalkState& x, const StandingHeights& heights,
+                                             const Vector2d& sole_size,
+                                             const std::array<Vector2d, 2>& zmps) {
+  const FootLoads loads =
+      Shared(FootPose(x, Side::kLeft), FootPose(x, Side::kRight), sole_size, zmps, heights.rise());
+  if (!(std::max(loads.distances_[0], loads.distances_[1]) > 0.0)) return std::nullopt;
+  return loads;
+}
+
+FootLoads FootLoads::Shared(const Pose2& X_WL, const Pose2& X_WR, const Vector2d& sole_size,
+                            const std::array<Vector2d, 2>& zmps, double rise) {
+  const FromSole left(X_WL, sole_size, zmps[0]), right(X_WR, sole_size, zmps[1]);
   FootLoads loads;
   loads.both_ = true;
   loads.between_ = X_WR.position() - X_WL.position();
+  loads.rise_ = rise;
   loads.distances_ = {left.distance, right.distance};
   loads.right_ = RightShare(left.distance, right.distance);
   const double l = std::max(left.distance, 0.0), r = std::max(right.distance, 0.0);
-  if (l + r > 0.0) loads.right_slope_ = (r * left.slope - l * right.slope) / ((l + r) * (l + r));
+  if (l + r > 0.0) {
+    loads.right_slope_ = (r * left.slope - l * right.slope) / ((l + r) * (l + r));
+    loads.tilt_slope_ = -rise * l * right.slope / ((l + r) * (l + r));
+  }
   return loads;
 }
 
 Vector6d FootLoads::On(Side side, const Vector6d& contact) const {
   const double sign = side == Side::kRight ? 1.0 : -1.0;
-  return share(side) * contact + sign * Couple(right_ * (1.0 - right_) * contact[5], between_);
+  const Vector6d level =
+      share(side) * contact + sign * Couple(right_ * (1.0 - right_) * contact[5], between_);
+  if (rise_ == 0.0) return level;
+  return level - sign * rise_ * CoupleOfRise(right_ * (1.0 - right_), contact);
 }
 
 Vector6d FootLoads::SlopeOn(Side side, const Vector6d& contact, const Vector6d& contact_slope,
                             const Vector2d& zmp_slope) const {
-  const double sign = side == Side::kRight ? 1.0 : -1.0, slope = right_slope_.dot(zmp_slope);
+  const double sign = side == Side::kRight ? 1.0 : -1.0;
+  double slope = right_slope_.dot(zmp_slope);
+  if (rise_ != 0.0) slope += tilt_slope_.dot(TiltSlope(contact, contact_slope));
   const double product_slope =
       (1.0 - 2.0 * right_) * slope * contact[5] + right_ * (1.0 - right_) * contact_slope[5];
-  return share(side) * contact_slope + sign * slope * contact +
-         sign * Couple(product_slope, between_);
+  const Vector6d level =
+      share(side) * contact_slope + sign * slope * contact + sign * Couple(product_slope, between_);
+  if (rise_ == 0.0) return level;
+  return level - sign * rise_ *
+                     (CoupleOfRise((1.0 - 2.0 * right_) * slope, contact) +
+                      CoupleOfRise(right_ * (1.0 - right_), contact_slope));
 }
 
 double FootLoads::ShareDrift(double moved) const {
   if (!both_) return 0.0;
   const auto [left, right] = distances_;
+  if (rise_ != 0.0 && std::max(left, right) <= moved) {
+    return std::numeric_limits<double>::infinity();
+  }
   return std::max(RightShare(left + moved, right - moved) - right_,
                   right_ - RightShare(left - moved, right + moved));
 }

@@ -90,26 +90,39 @@ RobotDynamics::RobotDynamics(const RobotModel& robot, const WalkJet& jet, const 
   if (!robot.masses.known()) contact_.setConstant(std::nan(""));
 }
 
-std::optional<Eigen::Vector2d> RobotDynamics::Zmp() const {
+std::optional<Eigen::Vector2d> RobotDynamics::Zmp(double height) const {
   const double push = contact_[5];
   if (!(push > 0.0)) return std::nullopt;
-  return Eigen::Vector2d(O_.x() - contact_[1] / push, O_.y() + contact_[0] / push);
+  const Eigen::Vector2d on_floor(O_.x() - contact_[1] / push, O_.y() + contact_[0] / push);
+  if (height == 0.0) return on_floor;
+  return on_floor + height * Tilt();
 }
 
-Eigen::Vector2d RobotDynamics::ZmpSlope(const Vector6d& contact_slope) const {
+Eigen::Vector2d RobotDynamics::ZmpSlope(const Vector6d& contact_slope, double height) const {
   const double push = contact_[5];
   const Eigen::Vector2d from_O = Eigen::Vector2d(-contact_[1], contact_[0]) / push;
-  return (Eigen::Vector2d(-contact_slope[1], contact_slope[0]) - contact_slope[5] * from_O) / push;
+  const Eigen::Vector2d on_floor =
+      (Eigen::Vector2d(-contact_slope[1], contact_slope[0]) - contact_slope[5] * from_O) / push;
+  if (height == 0.0) return on_floor;
+  return on_floor + height * TiltSlope(contact_, contact_slope);
 }
 
-Vector6d RobotDynamics::ZmpGradient(const Eigen::Vector2d& along) const {
+Vector6d RobotDynamics::ZmpGradient(const Eigen::Vector2d& along, double height) const {
   const double push = contact_[5];
   const Eigen::Vector2d from_O = Eigen::Vector2d(-contact_[1], contact_[0]) / push;
   Vector6d gradient = Vector6d::Zero();
   gradient[0] = along.y() / push;
   gradient[1] = -along.x() / push;
   gradient[5] = -along.dot(from_O) / push;
+  if (height == 0.0) return gradient;
+  gradient.segment<2>(3) = height * along / push;
+  gradient[5] -= height * along.dot(Tilt()) / push;
   return gradient;
+}
+
+Eigen::Vector2d TiltSlope(const Vector6d& contact, const Vector6d& contact_slope) {
+  const Eigen::Vector2d tilt = contact.segment<2>(3) / contact[5];
+  return (contact_slope.segment<2>(3) - contact_slope[5] * tilt) / contact[5];
 }
 
 }  // namespace halfstep

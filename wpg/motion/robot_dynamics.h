@@ -42,12 +42,16 @@ class RobotDynamics {
   const Vector6d& accelerations(Side side) const { return Nth(accelerations_, Index(side)); }
   /// What the floor gives: moment about O [N m], and force [N].
   const Vector6d& contact() const { return contact_; }
-  /// Where the floor's force has no horizontal moment, in W [m]; none where it does not push.
-  std::optional<Eigen::Vector2d> Zmp() const;
-  /// The ZMP's derivative when contact() changes by `contact_slope`. Precondition: there is a ZMP.
-  Eigen::Vector2d ZmpSlope(const Vector6d& contact_slope) const;
-  /// The gradient of `along` · ZMP with respect to contact(). Precondition: there is a ZMP.
-  Vector6d ZmpGradient(const Eigen::Vector2d& along) const;
+  /// Where the floor's force has no horizontal moment in the plane z = `height` [m], in W [m]; none
+  /// where it does not push. These points are a line along the force.
+  std::optional<Eigen::Vector2d> Zmp(double height = 0.0) const;
+  /// By how much that line goes aside for each metre that it rises: f_t/f_z. Precondition: there is
+  /// a ZMP, as for what follows.
+  Eigen::Vector2d Tilt() const { return contact_.segment<2>(3) / contact_[5]; }
+  /// The ZMP's derivative when contact() changes by `contact_slope`.
+  Eigen::Vector2d ZmpSlope(const Vector6d& contact_slope, double height = 0.0) const;
+  /// The gradient of `along` · ZMP with respect to contact().
+  Vector6d ZmpGradient(const Eigen::Vector2d& along, double height = 0.0) const;
 
  private:
   Eigen::Vector3d O_;
@@ -56,6 +60,10 @@ class RobotDynamics {
   std::array<Vector6d, 2> accelerations_;
   Vector6d contact_;
 };
+
+/// The derivative of RobotDynamics::Tilt when `contact` changes by `contact_slope`. Precondition:
+/// contact[5] > 0.
+Eigen::Vector2d TiltSlope(const Vector6d& contact, const Vector6d& contact_slope);
 
 /// Spatial acceleration and velocity about O of a frame that stays upright: its origin is at `p`
 /// from O [m], and moves by `v`, `a`; its yaw by `rate`, `acceleration`.

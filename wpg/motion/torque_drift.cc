@@ -96,13 +96,19 @@ double TorqueDrift::OfJoint(Side side, size_t joint) const {
   double drift = h * std::abs(axis.direction.dot(weighted.rate)) + weighted.rest +
                  axis.turned * (across + weighted.Norm(h)) +
                  0.5 * axis.turned * axis.turned * along;
-  if (!(loads_.between().norm() > 0.0)) return drift;
-  // Both feet stand: the shares drift, and with them the couple λ(1 − λ) f_z (c_R − c_L) × ẑ.
+  if (!loads_.both()) return drift;
+  // The shares drift, and with them the couple λ(1 − λ) (f_z (c_R − c_L) − rise f_t) × ẑ.
   const double push = at_m_.contact()[5], product = share * (1.0 - share);
   const double product_drift = share_drift_ * (std::abs(1.0 - 2.0 * share) + share_drift_);
-  const double couple_drift =
-      loads_.between().norm() *
-      (product_drift * (push + drift_.ForceDrift()) + product * drift_.ForceDrift());
+  double couple_drift = loads_.between().norm() * (product_drift * (push + drift_.ForceDrift()) +
+                                                   product * drift_.ForceDrift());
+  if (loads_.rise() != 0.0) {
+    const double arm = std::hypot(loads_.between().norm(), loads_.rise());
+    const Eigen::Vector2d factor =
+        push * loads_.between() - loads_.rise() * at_m_.contact().segment<2>(3);
+    couple_drift = product_drift * (factor.norm() + arm * drift_.ForceDrift()) +
+                   product * arm * drift_.ForceDrift();
+  }
   const Vector3d of_all = MomentAbout(axis.point, at_m_.contact());
   const double along_all = std::abs(axis.direction.dot(of_all)) + axis.turned * of_all.norm();
   return drift + share_drift_ * (along_all + all.Norm(h)) + couple_drift;

@@ -13,7 +13,8 @@ class TorqueDrift {
  public:
   /// Preconditions: `motion` is bounded, `at_m` are the dynamics at m and `drift` is of them,
   /// `loads` are those at m, and the same feet stand in all of the interval. `zmp_moved` is how far
-  /// the robot's ZMP goes from where it is at m, at most [m]; of no account where one foot stands.
+  /// the robot's ZMP goes from where it is at m, at most, in the plane of each sole [m]; of no
+  /// account where one foot stands.
   /// What is passed is borrowed.
   TorqueDrift(const IntervalMotion& motion, const RobotDrift& drift, const RobotDynamics& at_m,
               const FootLoads& loads, double zmp_moved, double gravity);

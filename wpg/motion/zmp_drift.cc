@@ -19,6 +19,7 @@ void AddLink(const MassDrift& link, const Vector3d& arm, double gravity, ZmpDrif
   drift->rest += link.mass * (0.5 * h * h * gravity * most + arm.norm() * link.p2 + link.p * most);
   drift->least_push -= link.mass * link.p2;
   drift->rest += link.moment;
+  drift->force_rest += link.mass * link.p2;
 }
 
 }  // namespace
@@ -35,20 +36,32 @@ double ZmpDrift::Along(const Eigen::Vector2d& direction) const {
   return (half_width * along + rest) / least_push;
 }
 
+// The point p + by (tilt, 1) of that plane is on the line along f at m.
+ZmpDrift ZmpDrift::Raised(double by) const {
+  const Vector3d arm = by * Vector3d(tilt.x(), tilt.y(), 1.0);
+  ZmpDrift raised = *this;
+  raised.rate = rate - Cross({arm, 0.0}, force_rate);
+  raised.rest += arm.norm() * force_rest;
+  return raised;
+}
+
 ZmpDrift ZmpDrift::At(const ContactRate& rate, double push) {
   return {
       .half_width = rate.half_width,
       .rate = rate.moment,
       .rest = 0.0,
-      .least_push = push - rate.half_width * (std::abs(rate.force.center.z()) + rate.force.radius)};
+      .least_push = push - rate.half_width * (std::abs(rate.force.center.z()) + rate.force.radius),
+      .force_rate = rate.force,
+      .force_rest = 0.0,
+      .tilt = rate.tilt};
 }
 
 ZmpDrift ZmpDrift::Over(const RobotModel& robot, const IntervalMotion& motion,
                         const WalkThirds& thirds, const RobotDrift& of_robot,
-                        const RobotDynamics& at_m, double gravity) {
+                        const RobotDynamics& at_m, double gravity, double height) {
   const Vector3d& O = at_m.O();
-  Vector3d pole(0, 0, 0);
-  pole.head<2>() = *at_m.Zmp();
+  Vector3d pole(0, 0, height);
+  pole.head<2>() = *at_m.Zmp(height);
   const RigidMotion waist = MotionOfWaist(robot, motion, thirds);
   const SpatialInertia& of_waist = at_m.waist().inertia;
   const RigidMotion body = waist.At(O + of_waist.com - waist.p.center);
@@ -57,7 +70,10 @@ ZmpDrift ZmpDrift::Over(const RobotModel& robot, const IntervalMotion& motion,
   ZmpDrift drift{.half_width = motion.half_width,
                  .rate = of_body.moment,
                  .rest = 0.0,
-                 .least_push = at_m.contact()[5] - of_waist.mass * body.p2.radius};
+                 .least_push = at_m.contact()[5] - of_waist.mass * body.p2.radius,
+                 .force_rate = of_body.force,
+                 .force_rest = 0.0,
+                 .tilt = at_m.Tilt()};
   for (const auto& leg : of_robot.link_masses) {
     for (const MassDrift& link : leg) AddLink(link, O + link.com - pole, gravity, &drift);
   }
