@@ -199,7 +199,7 @@ std::optional<SweptVolumeBaker::Covered> SweptVolumeBaker::CoverBoth(
   return Covered{*std::move(own), *std::move(mirrored)};
 }
 
-BoxTree SweptVolumeBaker::TreeOf(const Covered& covered) const {
+BoxTree SweptVolumeBaker::TreeOf(const Covered& covered, double cell) const {
   std::map<std::pair<size_t, double>, const Placement*> left;  // mirrored ones, by body and time
   for (const Placement& placement : covered.mirrored) {
     left[{placement.body, placement.time}] = &placement;
@@ -220,7 +220,7 @@ BoxTree SweptVolumeBaker::TreeOf(const Covered& covered) const {
     lower = lower.cwiseMin(region.lower);
     upper = upper.cwiseMax(region.upper);
   }
-  VoxelGrid grid(lower, upper, options_.cell);
+  VoxelGrid grid(lower, upper, cell);
   for (const HalfSpaces& region : regions) grid.Fill(region);
   return BoxTree::Build(grid);
 }
@@ -229,14 +229,14 @@ std::optional<BoxTree> SweptVolumeBaker::Bake(const HalfStep& half_step,
                                               const MotionModel& model) const {
   const auto covered = CoverBoth(half_step, model);
   if (!covered) return std::nullopt;
-  return TreeOf(*covered);
+  return TreeOf(*covered, options_.cell);
 }
 
 std::optional<SweptVolumeBaker::Parts> SweptVolumeBaker::BakeParts(const HalfStep& half_step,
                                                                    const MotionModel& model) const {
   const auto covered = CoverBoth(half_step, model);
   if (!covered) return std::nullopt;
-  const auto part = [&](const auto& holds) {
+  const auto part = [&](double cell, const auto& holds) {
     Covered some;
     for (const Placement& placement : covered->own) {
       if (holds(robot_.bodies[placement.body], half_step.swing())) some.own.push_back(placement);
@@ -246,16 +246,17 @@ std::optional<SweptVolumeBaker::Parts> SweptVolumeBaker::BakeParts(const HalfSte
         some.mirrored.push_back(placement);
       }
     }
-    return TreeOf(some);
+    return TreeOf(some, cell);
   };
   const auto on_foot = [](const RobotBody& body) { return body.link == 5; };
-  return Parts{.rest = part([&](const RobotBody& body, Side) { return !on_foot(body); }),
-               .swing = part([&](const RobotBody& body, Side swing) {
-                 return on_foot(body) && body.leg == Index(swing);
-               }),
-               .stand = part([&](const RobotBody& body, Side swing) {
-                 return on_foot(body) && body.leg != Index(swing);
-               })};
+  const double foot = FootCell(options_.cell);
+  return Parts{
+      .rest = part(options_.cell, [&](const RobotBody& body, Side) { return !on_foot(body); }),
+      .swing = part(foot, [&](const RobotBody& body,
+                              Side swing) { return on_foot(body) && body.leg == Index(swing); }),
+      .stand = part(foot, [&](const RobotBody& body, Side swing) {
+        return on_foot(body) && body.leg != Index(swing);
+      })};
 }
 
 }  // namespace halfstep

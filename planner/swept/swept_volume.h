@@ -24,6 +24,9 @@ struct SweptVolumeOptions {
   friend bool operator==(const SweptVolumeOptions&, const SweptVolumeOptions&) = default;
 };
 
+/// Edge of the cells of a foot's volume where it has one of its own [m].
+constexpr double FootCell(double cell) { return 0.5 * cell; }
+
 /// Bakes swept volumes of one robot. Const and thread-safe.
 class SweptVolumeBaker {
  public:
@@ -56,7 +59,8 @@ class SweptVolumeBaker {
     BoxTree swing;  ///< of the foot that swings
     BoxTree stand;  ///< of the foot that stands
   };
-  /// The same as Bake for each part.
+  /// The same as Bake for each part; those of the feet in finer cells (FootCell), for feet stand
+  /// near to what they must not touch.
   std::optional<Parts> BakeParts(const HalfStep& half_step, const MotionModel& model) const;
 
   const SweptVolumeOptions& options() const { return options_; }  ///< as given
@@ -67,7 +71,7 @@ class SweptVolumeBaker {
     std::vector<Placement> own, mirrored;
   };
   std::optional<Covered> CoverBoth(const HalfStep& half_step, const MotionModel& model) const;
-  BoxTree TreeOf(const Covered& covered) const;
+  BoxTree TreeOf(const Covered& covered, double cell) const;
 
   struct Outline {
     Eigen::Matrix3Xd normals;  // in the body's link frame, unit

@@ -117,7 +117,7 @@ std::string SweptVolumeProvenance(const RobotModel& robot, const MotionModel& mo
   line_unless("rise_end", rise_end, 1.0);
   line_unless("crouch", crouch, 0.0);
   line_unless("via_along", set.prototype.via_along, 0.0);
-  if (set.on_levels) line("on_levels", "feet apart, with plates");
+  if (set.on_levels) line("on_levels", "feet apart, with plates, in half the cell");
   line("elements", std::to_string(set.size()));
   line("placements", Sha256(placements));
   line("cell", Exactly(options.cell));
@@ -138,6 +138,10 @@ ElementVolumes Taken(std::optional<BoxTree>* first, const StepSet& set) {
   ElementVolumes element;
   ForEachVolume(element, set.on_levels,
                 [&first](std::optional<BoxTree>& volume) { volume = std::move(*first++); });
+  for (auto* foot :
+       {&element.down_swing, &element.up_swing, &element.down_stand, &element.up_stand}) {
+    if (*foot) (*foot)->cell = FootCell((*foot)->cell);
+  }
   return element;
 }
 

@@ -159,7 +159,7 @@ TEST(GroundSolids, TheSwingFootIsCertifiedOverACurbAsFarAsItIsFromIt) {
       const auto floor = [&](double demanded) {
         return Certify(robot, scene, Only(MarginFamily::kFloor, demanded), walk, &certificate);
       };
-      const double demanded = truth - 2e-5;
+      const double demanded = truth - 5e-4;  // what instants 2 ms apart may miss
       ++near;
       EXPECT_EQ(floor(demanded).verdict, Verdict::kFeasible) << share << " " << height;
       const Feasibility refused = floor(truth + 1e-4);
