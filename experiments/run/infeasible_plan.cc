@@ -7,6 +7,7 @@
 #include "experiments/run/missed_demands_text.h"
 #include "experiments/run/plan_inputs.h"
 #include "smoothing/methods/plan_remedies.h"
+#include "wpg/files/input_error.h"
 #include "wpg/files/text.h"
 #include "wpg/nth.h"
 
@@ -49,8 +50,12 @@ std::vector<std::string> RemediesText(const Experiment& experiment, const WalkPr
   const ChangeablePlan plan{
       .sequence = problem.sequence(),
       .usual = {.duration = config.half_step.duration, .via_height = config.half_step.via_height},
-      .With = [&](const std::vector<PlanChange>& changes) {
-        return SequenceOf(Changed(config, changes), experiment.robot, *experiment.scene.ground);
+      .With = [&](const std::vector<PlanChange>& changes) -> std::optional<HalfStepSequence> {
+        try {
+          return SequenceOf(Changed(config, changes), experiment.robot, *experiment.scene.ground);
+        } catch (const InputError&) {
+          return std::nullopt;
+        }
       }};
   const PlanRemedies remedies = FindRemedies(plan, problem.test(), missed, stop);
   std::vector<std::string> lines;

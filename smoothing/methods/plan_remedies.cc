@@ -47,7 +47,9 @@ class RemedySearch {
       const std::vector<PlanChange>& found = remedies.steps.back().found;
       if (!found.empty()) together.push_back(found.front());
       if (together.size() < steps.size()) continue;
-      const Feasibility whole = Check(plan_.With(together));
+      const std::optional<HalfStepSequence> changed = plan_.With(together);
+      if (!changed) continue;
+      const Feasibility whole = Check(*changed);
       remedies.together = whole.verdict == Verdict::kFeasible;
       // What is missed between the instants that were looked at shows itself now.
       const int next = whole.witness.at.half_step / 2;
@@ -122,12 +124,13 @@ class RemedySearch {
   void Keep(const std::vector<PlanChange>& changes, int steps, std::vector<PlanChange>* found) {
     const auto helps = [&](const PlanChange& change) {
       if (Stopped() || !ChangeRange().Contains(change)) return false;
-      HalfStepSequence plan = plan_.With({change});
+      std::optional<HalfStepSequence> plan = plan_.With({change});
+      if (!plan) return false;
       if (change.step) {
-        const int end = std::min(*change.step + steps, plan.num_steps());
-        plan = PlannedPart(plan, 2 * *change.step, 2 * end);
+        const int end = std::min(*change.step + steps, plan->num_steps());
+        plan = PlannedPart(*plan, 2 * *change.step, 2 * end);
       }
-      return Check(plan).verdict == Verdict::kFeasible;
+      return Check(*plan).verdict == Verdict::kFeasible;
     };
     const auto first = std::ranges::find_if(changes, helps);
     if (first != changes.end()) found->push_back(*first);

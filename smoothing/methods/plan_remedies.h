@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <stop_token>
 #include <vector>
 
@@ -26,8 +27,9 @@ struct PlanRemedies {
 struct ChangeablePlan {
   HalfStepSequence sequence;  ///< as it is
   PlanChange usual;           ///< duration and height of steps that have none of their own
-  /// The same with changes.
-  std::function<HalfStepSequence(const std::vector<PlanChange>&)> With;
+  /// The same with changes; none where it is no plan then: the ground does not bear a landing, or
+  /// the via point is lower than a footstep.
+  std::function<std::optional<HalfStepSequence>(const std::vector<PlanChange>&)> With;
 };
 
 /// What makes a plan feasible that misses demands: the height of the via point, the duration of the

@@ -113,7 +113,7 @@ class Repair {
                                 .duration = longer * *planned.duration,
                                 .via_height = higher * *planned.via_height};
         if (Stopped()) return;
-        if (!range_.Contains(change)) continue;
+        if (!range_.Contains(change) || LeastHeightScale(Alone(change), 0) > 1.0) continue;
         const Margin worst = Worst(change);
         if (Slack(worst) > least_slack) {
           least_slack = Slack(worst);
