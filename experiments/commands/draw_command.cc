@@ -85,9 +85,10 @@ CommandAction DeclareDraw(CLI::App* app, const Toolbox&) {
   kinds.push_back("references");
   const auto references = std::make_shared<ReferencesCommand>();
   references->jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  app->add_option("WHAT", command->what,
-                  "a scene, cylinders or random_room, which is printed; walks, a folder of configs "
-                  "and a sweep over them; or references, a folder of certified motions")
+  app->add_option(
+         "WHAT", command->what,
+         "a scene, cylinders, random_room or blocks, which is printed; walks, a folder of configs "
+         "and a sweep over them; or references, a folder of certified motions")
       ->required()
       ->check(OneOf(kinds));
   app->add_option("--count", command->count,

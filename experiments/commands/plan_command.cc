@@ -113,7 +113,7 @@ ExitStatus Bake(const PlanCommand& command) {
   std::optional<BakedHalfSteps> baked;
   {
     Bars bars(command.quiet || command.json);
-    baked = BakeHalfSteps(place.robot, config, HooksOf(&bars, interrupt));
+    baked = BakeHalfSteps(place.robot, config, *place.scene.ground, HooksOf(&bars, interrupt));
   }
   WarnAboutCache(baked->cached);
   if (!baked->cached.volumes) {

@@ -1,12 +1,18 @@
 #include "experiments/config/experiment.h"
 
+#include <cmath>
+#include <limits>
+
 #include "experiments/config/data_folder.h"
+#include "planner/ground/level_borders.h"
+#include "planner/ground/level_ground.h"
 #include "planner/scene/doubtful_obstacles.h"
 #include "planner/scene/no_step_areas.h"
 #include "smoothing/margins/demandable.h"
 #include "smoothing/margins/family_traits.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/number_text.h"
+#include "wpg/files/suggestion.h"
 #include "wpg/files/text.h"
 #include "wpg/motion/lipm.h"
 #include "wpg/nth.h"
@@ -37,6 +43,25 @@ std::array<Pose2, 2> StartFromAbove(const ExperimentConfig& config, const RobotM
   if (config.has_start) return {config.start_left, config.start_right};
   const double y = 0.5 * robot.standing_width;
   return {Pose2{0.0, y, 0.0}, Pose2{0.0, -y, 0.0}};
+}
+
+// What keeps a sole from standing, as the rest of a sentence; "" where nobody knows.
+std::string WhyNotBorne(const Ground& ground, const Eigen::Matrix2Xd& outline, const Pose2& X_WF,
+                        const std::optional<GroundLevel>& on) {
+  const LevelBorders borders(ground);
+  if (borders.empty()) return "";
+  LevelBorders::Nearest best{.distance = -std::numeric_limits<double>::infinity()};
+  for (const GroundLevel& level : ground.Levels()) {
+    if (on && level != *on) continue;
+    const LevelBorders::Nearest one = borders.NearestTo(outline, X_WF, level.number);
+    if (one.distance > best.distance) best = one;
+  }
+  // What is farther off its level than it is long does not reach over a border.
+  const double length = 2.0 * outline.colwise().norm().maxCoeff();
+  if (best.distance < -length) return ": there is nothing below it";
+  if (best.distance > 0.0 || best.solid < 0) return "";
+  return Formatted(": it reaches %.3g mm over the edge of %s", -1e3 * best.distance,
+                   Nth(ground.Solids(), best.solid).name.c_str());
 }
 
 // Where the walk begins, steps and ends, seen from above.
@@ -110,20 +135,48 @@ Place LoadPlace(const ExperimentConfig& config) {
   return place;
 }
 
+std::optional<GroundLevel> ChosenLevel(const Ground& ground, const std::string& who,
+                                       const LevelChoice& on) {
+  if (!on.name.empty()) {
+    const std::optional<GroundLevel> level = LevelNamed(ground, on.name);
+    if (level) return level;
+    std::vector<std::string> names;
+    for (const GroundSolid& solid : ground.Solids()) {
+      if (solid.bears) names.push_back(solid.name);
+    }
+    if (LevelNamed(ground, "floor")) names.push_back("floor");
+    if (names.size() > 20) names.resize(20);
+    throw InputError({who + ".level: the scene has no surface of the name " + Quote(on.name) +
+                      Suggestion(on.name, names)});
+  }
+  if (!on.z) return std::nullopt;
+  std::string heights;
+  for (const GroundLevel& level : ground.Levels()) {
+    if (std::abs(level.height - *on.z) < 0.5e-9) return level;
+    heights += (heights.empty() ? "" : ", ") + ShortestText(level.height);
+  }
+  throw InputError({who + ".z_m: no level of the scene is at z = " + ShortestText(*on.z) +
+                    " m (valid: " + heights + ")"});
+}
+
 Foothold OnGround(const Ground& ground, const RobotModel& robot, const Pose2& X_WF,
-                  const std::string& who) {
-  const std::optional<Foothold> stands = ground.Standing(robot.sole_outline, X_WF);
-  if (stands) return *stands;
-  throw InputError({who + Formatted(": the ground does not bear a sole at x = %.6g m, y = %.6g m "
-                                    "(valid: all of it on one level)",
-                                    X_WF.x, X_WF.y)});
+                  const std::string& who, const LevelChoice& on) {
+  const std::optional<GroundLevel> level = ChosenLevel(ground, who, on);
+  const std::optional<Foothold> stands =
+      level ? ground.Standing(robot.sole_outline, X_WF, level->height)
+            : ground.Standing(robot.sole_outline, X_WF);
+  if (stands && (!level || stands->height == level->height)) return *stands;
+  throw InputError(
+      {who +
+       Formatted(": the ground does not bear a sole at x = %.6g m, y = %.6g m", X_WF.x, X_WF.y) +
+       WhyNotBorne(ground, robot.sole_outline, X_WF, level) + " (valid: all of it on one level)"});
 }
 
 std::array<Foothold, 2> StartOf(const ExperimentConfig& config, const RobotModel& robot,
                                 const Ground& ground) {
   const auto [left, right] = StartFromAbove(config, robot);
-  return {OnGround(ground, robot, left, "start.left"),
-          OnGround(ground, robot, right, "start.right")};
+  return {OnGround(ground, robot, left, "start.left", config.start_left_on),
+          OnGround(ground, robot, right, "start.right", config.start_right_on)};
 }
 
 std::vector<Footstep> FootstepsOf(const ExperimentConfig& config, const RobotModel& robot,
@@ -132,7 +185,7 @@ std::vector<Footstep> FootstepsOf(const ExperimentConfig& config, const RobotMod
   for (const FootstepConfig& step : config.footsteps) {
     const std::string who = "footsteps[" + std::to_string(footsteps.size()) + "]";
     footsteps.push_back({.side = step.foot == "left" ? Side::kLeft : Side::kRight,
-                         .X_WF = OnGround(ground, robot, step.X_WF, who),
+                         .X_WF = OnGround(ground, robot, step.X_WF, who, step.on),
                          .via_height = step.via_height.value_or(config.half_step.via_height),
                          .duration = step.duration.value_or(config.half_step.duration)});
   }

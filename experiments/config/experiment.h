@@ -38,6 +38,10 @@ GivenWalkFiles GivenPaths(const ExperimentConfig& config);
 /// output directory becomes that folder itself.
 ExperimentConfig MovedTo(const std::filesystem::path& folder, const ExperimentConfig& config);
 
+/// The level that a file chooses of a ground; none where it does not. Throws InputError, which
+/// begins with `who`, where there is none such.
+std::optional<GroundLevel> ChosenLevel(const Ground& ground, const std::string& who,
+                                       const LevelChoice& on);
 /// Where a config's walk takes place.
 struct Place {
   RobotModel robot;  ///< as in Experiment
@@ -47,9 +51,9 @@ struct Place {
 Place LoadPlace(const ExperimentConfig& config);
 /// The place of a sole at X_WF, seen from above, on the ground's level there: all that files say of
 /// soles becomes footholds here. Throws InputError, which begins with `who`, where the ground does
-/// not bear the sole.
+/// not bear the sole, or not on the level that was chosen.
 Foothold OnGround(const Ground& ground, const RobotModel& robot, const Pose2& X_WF,
-                  const std::string& who);
+                  const std::string& who, const LevelChoice& on = {});
 
 /// The soles at the start, by Index(Side). Throws InputError as OnGround, as do the next ones.
 std::array<Foothold, 2> StartOf(const ExperimentConfig& config, const RobotModel& robot,

@@ -21,7 +21,7 @@
 namespace halfstep {
 namespace {
 
-void DeclareSole(Fields& fields, Pose2* X_WF) {
+void DeclareSole(Fields& fields, Pose2* X_WF, LevelChoice* on) {
   const NumberSpec position{.meaning = "of the sole's centre in the world",
                             .unit = "m",
                             .min = -1000,
@@ -32,12 +32,25 @@ void DeclareSole(Fields& fields, Pose2* X_WF) {
   fields.Number(
       "yaw_deg", &X_WF->yaw,
       {.meaning = "not wrapped: 350 is not −10", .unit = "deg", .min = -3600, .max = 3600});
+  fields.Text(
+      "level", &on->name,
+      {.meaning = "where levels lie above each other: the surface on which the sole stands, "
+                  "or `floor`",
+       .otherwise = "the highest",
+       .left_out_empty = true});
+  fields.OptionalNumber("z_m", &on->z,
+                        {.meaning = "the same by the level's height",
+                         .unit = "m",
+                         .min = -1000,
+                         .max = 1000,
+                         .none_left_out = true});
+  if (on->z && !on->name.empty()) fields.Complain("z_m", "beside `level` (valid: one of them)");
 }
 
 void DeclareFootstep(Fields& fields, FootstepConfig* step) {
   fields.Text("foot", &step->foot,
               {.meaning = "the foot that steps", .required = true, .choices = {"left", "right"}});
-  DeclareSole(fields, &step->X_WF);
+  DeclareSole(fields, &step->X_WF, &step->on);
   fields.OptionalNumber(
       "via_height_m", &step->via_height,
       {.meaning = "instead of half_step.via_height_m", .unit = "m", .min = 0.01, .max = 1});
@@ -131,9 +144,9 @@ void DeclareStart(Fields& fields, ExperimentConfig* c) {
            "feet side by side about the origin, `standing_width` apart (HRP-2: y = ±0.105 m)"},
       [&](Fields& f) {
         f.Group("left", {.meaning = "the left sole", .required = true},
-                [&](Fields& g) { DeclareSole(g, &c->start_left); });
+                [&](Fields& g) { DeclareSole(g, &c->start_left, &c->start_left_on); });
         f.Group("right", {.meaning = "the right sole", .required = true},
-                [&](Fields& g) { DeclareSole(g, &c->start_right); });
+                [&](Fields& g) { DeclareSole(g, &c->start_right, &c->start_right_on); });
         const std::string jump = YawJump(c->start_right.yaw, c->start_left.yaw, "left");
         if (!jump.empty()) f.Complain("right", "yaw_deg: " + jump);
       });

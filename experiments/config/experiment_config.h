@@ -17,13 +17,20 @@
 
 namespace halfstep {
 
+/// Which level a sole stands on where several lie above each other; neither: the highest.
+struct LevelChoice {
+  std::string name = {};         ///< of a surface, or "floor"; "": not said
+  std::optional<double> z = {};  ///< the level's height [m]
+};
+
 /// One footstep of a config: a sole's place in the world, and what differs from `half_step`.
-/// Configs say no heights: these follow from the ground (StartOf, FootstepsOf).
+/// Its height follows from the ground (StartOf, FootstepsOf).
 struct FootstepConfig {
   std::string foot = "left";         ///< "left" or "right"
   Pose2 X_WF;                        ///< the sole's place in W, seen from above
   std::optional<double> via_height;  ///< [m]
   std::optional<double> duration;    ///< [s]
+  LevelChoice on = {};               ///< the level
 };
 
 /// An experiment as its YAML file says it (top keys: experiments/README.md). Paths are as written.
@@ -33,21 +40,22 @@ struct ExperimentConfig {
   std::string scene;  ///< a path; "none": empty floor
   /// Whether `start` is given; else the feet stand beside each other at the origin.
   bool has_start = false;
-  Pose2 start_left, start_right;          ///< X_WF of the soles, when has_start
-  bool has_goal = false;                  ///< else there are footsteps
-  GoalConfig goal;                        ///< used when has_goal
-  std::vector<FootstepConfig> footsteps;  ///< empty when has_goal
-  PlannerConfig planner;                  ///< used when has_goal
-  StepGrid step_set;                      ///< the placements that planners choose from
-  SweptVolumesConfig swept_volumes;       ///< of the planners that ask them
-  HalfStepConfig half_step;               ///< of all half-steps
-  SmoothingConfig smoothing;              ///< methods, limits and margins
-  bool has_replay = false;                ///< whether certified walks are played
-  ReplayConfig replay;                    ///< used when has_replay
-  std::string output_directory;           ///< "": `runs/<name>` in the working directory
-  std::optional<double> output_period;    ///< of trajectory.csv [s]; none: as its ZMP shifts
-  int seed = 1;                           ///< of planners' random numbers
-  std::string directory;                  ///< folder of the file, to which relative paths refer
+  Pose2 start_left, start_right;              ///< X_WF of the soles, when has_start
+  LevelChoice start_left_on, start_right_on;  ///< their levels
+  bool has_goal = false;                      ///< else there are footsteps
+  GoalConfig goal;                            ///< used when has_goal
+  std::vector<FootstepConfig> footsteps;      ///< empty when has_goal
+  PlannerConfig planner;                      ///< used when has_goal
+  StepGrid step_set;                          ///< the placements that planners choose from
+  SweptVolumesConfig swept_volumes;           ///< of the planners that ask them
+  HalfStepConfig half_step;                   ///< of all half-steps
+  SmoothingConfig smoothing;                  ///< methods, limits and margins
+  bool has_replay = false;                    ///< whether certified walks are played
+  ReplayConfig replay;                        ///< used when has_replay
+  std::string output_directory;               ///< "": `runs/<name>` in the working directory
+  std::optional<double> output_period;        ///< of trajectory.csv [s]; none: as its ZMP shifts
+  int seed = 1;                               ///< of planners' random numbers
+  std::string directory;                      ///< folder of the file, to which relative paths refer
 };
 
 /// Between the rows of trajectory.csv [s] where the config does not say.

@@ -92,8 +92,9 @@ class FootstepTable {
   }
 
   void ReadHeader(const std::vector<Cell>& cells) {
-    static const std::vector<std::string> kNames = {
-        "footstep", "foot", "x_m", "y_m", "yaw_rad", "yaw_deg", "via_height_m", "duration_s"};
+    static const std::vector<std::string> kNames = {"footstep", "foot",         "x_m",
+                                                    "y_m",      "z_m",          "yaw_rad",
+                                                    "yaw_deg",  "via_height_m", "duration_s"};
     width_ = cells.size();
     for (size_t i = 0; i < cells.size(); ++i) {
       if (!columns_.emplace(cells[i].text, i).second) {
@@ -129,6 +130,7 @@ class FootstepTable {
     step.X_WF.y = Number(cells, "y_m", kPlaceRange).value_or(0.0);
     const bool degrees = columns_.contains("yaw_deg");
     step.X_WF.yaw = Number(cells, degrees ? "yaw_deg" : "yaw_rad", kYawRange).value_or(0.0);
+    step.z = Number(cells, "z_m", kPlaceRange);
     const double beside = Nth(yaws_, Opposite(step.foot)).value_or(step.X_WF.yaw);
     if (std::abs(step.X_WF.yaw - beside) > std::numbers::pi * (1.0 + 1e-9)) {
       Complain(cells[columns_[degrees ? "yaw_deg" : "yaw_rad"]].column,
@@ -144,6 +146,7 @@ class FootstepTable {
         Complain(foot.column, "foot", "the start has left and right, in this order");
       }
       start->push_back(step.X_WF);
+      if (step.z) read_.start_heights.push_back(*step.z);
       return;
     }
     step.via_height = Number(cells, "via_height_m", kHeightRange);
@@ -159,7 +162,7 @@ class FootstepTable {
     const auto found = columns_.find(name);
     if (found == columns_.end()) return std::nullopt;
     const Cell& cell = cells[found->second];
-    const bool may_be_empty = name == "via_height_m" || name == "duration_s";
+    const bool may_be_empty = name == "z_m" || name == "via_height_m" || name == "duration_s";
     if (cell.text.empty() && may_be_empty) return std::nullopt;
     const NumberText number = ParseNumber(cell.text);
     if (number.kind != NumberText::Kind::kNumber) {

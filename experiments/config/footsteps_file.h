@@ -15,12 +15,15 @@ struct FiledFootstep {
   Pose2 X_WF;                        ///< the sole's place in W, seen from above
   std::optional<double> via_height;  ///< [m]; none: the file does not say
   std::optional<double> duration;    ///< of each half-step [s]; none: the file does not say
+  std::optional<double> z = {};      ///< height of the level there [m]; none: the file does not say
 };
 
 /// The footsteps of a file.
 struct FiledFootsteps {
   /// Where the soles stand at the start, left and right; none: the file does not say.
   std::optional<std::vector<Pose2>> start;
+  /// Their heights, where it says them: as many, or none.
+  std::vector<double> start_heights = {};
   std::vector<FiledFootstep> steps;  ///< in the order of stepping, at least one
 };
 

@@ -35,10 +35,14 @@ void ReadFootstepsFile(const FootstepsFileConfig& file, const std::string& path,
     c->has_start = true;
     c->start_left = read.start->front();
     c->start_right = read.start->back();
+    if (read.start_heights.size() == 2) {
+      c->start_left_on.z = read.start_heights.front();
+      c->start_right_on.z = read.start_heights.back();
+    }
   }
   for (const FiledFootstep& step : read.steps) {
     c->footsteps.push_back(
-        {std::string(Name(step.foot)), step.X_WF, step.via_height, step.duration});
+        {std::string(Name(step.foot)), step.X_WF, step.via_height, step.duration, {{}, step.z}});
   }
 }
 

@@ -113,6 +113,10 @@ void DeclareGoal(Fields& fields, GoalConfig* c) {
   fields.OptionalNumber(
       "yaw_tolerance_deg", &c->yaw_tolerance,
       {.meaning = "either way; none: any yaw", .unit = "deg", .min = 0, .max = 180});
+  fields.Text("level", &c->level,
+              {.meaning = "on uneven ground: the surface on which the feet shall stand, or `floor`",
+               .otherwise = "any",
+               .left_out_empty = true});
 }
 
 void DeclarePlanner(Fields& fields, PlannerConfig* c) {

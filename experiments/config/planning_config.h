@@ -18,6 +18,7 @@ struct GoalConfig {
   double radius = 0.1;  ///< [m]
   std::vector<double> box;              ///< edge lengths [m]; empty: the disc
   std::optional<double> yaw_tolerance;  ///< [rad]; none: any yaw
+  std::string level = {};               ///< name of a surface, or "floor"; "": any
 
   /// The region as planners take it.
   GoalRegion Region() const;

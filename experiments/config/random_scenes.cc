@@ -1,5 +1,6 @@
 #include "experiments/config/random_scenes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -47,21 +48,41 @@ std::string DrawFurniture(int i, std::mt19937_64& random) {
   return BoxYaml(i, x, y, length, width, height, Uniform(-90.0, 90.0, random));
 }
 
+// Blocks stand in a field of five rows of 40 cm, in front of who stands at the origin.
+std::string DrawBlock(int i, std::mt19937_64& random) {
+  constexpr double kEdge = 0.4, kFirst = 0.3;
+  constexpr int kRows = 5, kHeights = 16;
+  const double x = kFirst + kEdge * ((i - 1) / kRows), y = kEdge * ((i - 1) % kRows - 0.5 * kRows);
+  const double height = 0.01 * std::floor(Uniform(0.0, kHeights, random));
+  if (height == 0.0) return "";
+  const auto corner = [](double cx, double cy) {
+    return "[" + Metres(cx) + ", " + Metres(cy) + "]";
+  };
+  return "  - name: block_" + std::to_string(i) + "\n    polygon_m: [" + corner(x, y) + ", " +
+         corner(x + kEdge, y) + ", " + corner(x + kEdge, y + kEdge) + ", " + corner(x, y + kEdge) +
+         "]\n    height_m: " + Metres(height) + "\n";
+}
+
+std::string DrawItem(const std::string& name, int i, std::mt19937_64& random) {
+  if (name == "blocks") return DrawBlock(i, random);
+  return name == "cylinders" ? DrawCylinder(i, random) : DrawFurniture(i, random);
+}
+
 }  // namespace
 
-std::vector<std::string> RandomSceneNames() { return {"cylinders", "random_room"}; }
+std::vector<std::string> RandomSceneNames() { return {"cylinders", "random_room", "blocks"}; }
 
 std::string DrawScene(const std::string& name, int count, std::uint64_t seed) {
   HALFSTEP_CHECK(count >= 0, "count = " << count);
-  HALFSTEP_CHECK(name == "cylinders" || name == "random_room", "no random scene " << name);
+  const std::vector<std::string> names = RandomSceneNames();
+  HALFSTEP_CHECK(std::ranges::find(names, name) != names.end(), "no random scene " << name);
   std::mt19937_64 random(seed);
-  std::string text = "# halfstep draw " + name + " --count " + std::to_string(count) + " --seed " +
-                     std::to_string(seed) + "\nname: " + name +
-                     "\nobstacles:" + (count == 0 ? " []" : "") + "\n";
-  for (int i = 1; i <= count; ++i) {
-    text += name == "cylinders" ? DrawCylinder(i, random) : DrawFurniture(i, random);
-  }
-  return text;
+  std::string items;
+  for (int i = 1; i <= count; ++i) items += DrawItem(name, i, random);
+  const std::string list = name == "blocks" ? "surfaces" : "obstacles";
+  return "# halfstep draw " + name + " --count " + std::to_string(count) + " --seed " +
+         std::to_string(seed) + "\nname: " + name + "\n" + list + ":" +
+         (items.empty() ? " []" : "") + "\n" + items;
 }
 
 }  // namespace halfstep

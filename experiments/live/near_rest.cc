@@ -53,6 +53,7 @@ std::optional<NearRest> NearRest::At(const SafetyCheck& among, const ExperimentC
     const Margin margin = Nth(evaluator.At(walk, at, &scratch), MarginFamily::kClearance);
     if (margin.value >= demanded) break;
     if (!(margin.value >= 0.0) || margin.other < 0) return std::nullopt;
+    if (scene.ObstacleAt(margin.other) == nullptr) return std::nullopt;  // the ground is known
     nearest = std::min(nearest, margin.value);
     // To demand less of an obstacle is to know better where it is.
     Nth(scene.obstacles, margin.other).motion.error -=

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "planner/ground/flat_floor.h"
 #include "wpg/files/input_error.h"
 
 namespace halfstep {
 
 Scene WithSpareBoxes(Scene scene, const LiveOptions& options) {
+  RequireFlatFloor(*scene.ground, "episode");
   const double floor = scene.ground->HeightEverywhere();
   for (const std::string& name : SpareNames(options)) {
     Obstacle box{.name = name, .shape = Box{{0.2, 0.2, 0.1}}};

@@ -22,7 +22,7 @@ set(CPACK_DEBIAN_DEV_PACKAGE_NAME libhalfstep-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_SHLIBDEPS OFF)
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "halfstep (= ${PROJECT_VERSION}), libeigen3-dev, libfcl-dev, \
-libyaml-cpp-dev, libssl-dev, libqhull-dev, libqhullcpp8.0, liburdfdom-dev, liboctomap-dev, libtinyxml-dev, libsleef-dev, \
+libyaml-cpp-dev, libssl-dev, libqhull-dev, libqhullcpp8.0, liburdfdom-dev, liboctomap-dev, libtinyxml-dev, libpng-dev, libsleef-dev, \
 libcli11-dev, nlohmann-json3-dev, pkg-config")
 foreach(pair "IPOPT:coinor-libipopt-dev" "NLOPT:libnlopt-dev, libnlopt-cxx-dev" "CERES:libceres-dev")
   string(REGEX MATCH "^([A-Z]+):(.*)" pair ${pair})

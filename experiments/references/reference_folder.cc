@@ -74,6 +74,8 @@ std::string ReferenceManifest(const ReferenceRequest& request, const ReferenceMa
   const Experiment& experiment = maker.experiment();
   ordered_json demanded;
   for (const MarginFamily family : AllMarginFamilies()) {
+    // References are of the flat floor, where this family is not.
+    if (family == MarginFamily::kFoothold) continue;
     const double least = maker.limits().demanded_of(family);
     if (least != kNotDemanded) demanded[std::string(Name(family))] = least;
   }

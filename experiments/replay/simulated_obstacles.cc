@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "planner/ground/flat_floor.h"
 #include "wpg/files/text.h"
 
 namespace halfstep::replay {
@@ -37,7 +38,7 @@ void Add(const Obstacle& obstacle, PoseOverTime pose, SimulatedObstacles* all) {
 }  // namespace
 
 SimulatedObstacles ObstaclesOf(const Scene& scene) {
-  scene.ground->CheckIsZeroEverywhere();
+  RequireFlatFloor(*scene.ground, "simulation");
   SimulatedObstacles all;
   for (const Obstacle& obstacle : scene.obstacles) {
     const auto pose = [X_WO = obstacle.X_WO, motion = obstacle.motion](double t) {
@@ -49,7 +50,7 @@ SimulatedObstacles ObstaclesOf(const Scene& scene) {
 }
 
 SimulatedObstacles ObstaclesOf(const TrueWorld& truth) {
-  truth.scene().ground->CheckIsZeroEverywhere();
+  RequireFlatFloor(*truth.scene().ground, "simulation");
   SimulatedObstacles all;
   const auto shared = std::make_shared<const TrueWorld>(truth);
   for (size_t i = 0; i < truth.scene().obstacles.size(); ++i) {

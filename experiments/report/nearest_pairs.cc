@@ -59,8 +59,9 @@ class PairSearch {
     for (size_t body = 0; body < clearances_.num_bodies(); ++body) {
       const auto nearest = clearances_.NearestTo(body, posture, t, best.margin, &scratch_);
       if (nearest.obstacle < 0 || nearest.margin >= best.margin) continue;
-      const Obstacle& obstacle = Nth(scene_.obstacles, nearest.obstacle);
-      best = {nearest.margin, {robot_.bodies[body].name, obstacle.name}, nearest.separation};
+      best = {nearest.margin,
+              {robot_.bodies[body].name, scene_.NameOf(nearest.obstacle)},
+              nearest.separation};
       found = best;
     }
     return found;

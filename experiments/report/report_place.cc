@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "experiments/report/drawn_mesh.h"
+#include "planner/ground/flat_floor.h"
 #include "wpg/files/number_text.h"
 #include "wpg/nth.h"
 #include "wpg/robot/robot_legs.h"
@@ -126,7 +127,7 @@ std::vector<const Obstacle*> NearestObstacles(const Scene& scene, const Eigen::V
 }  // namespace
 
 json SceneJson(const Scene& scene, const Eigen::Vector2d& middle_W) {
-  scene.ground->CheckIsZeroEverywhere();
+  RequireFlatFloor(*scene.ground, "report");
   json obstacles = json::array(), areas = json::array();
   const std::vector<const Obstacle*> drawn_ones = NearestObstacles(scene, middle_W);
   const auto meshes = std::count_if(drawn_ones.begin(), drawn_ones.end(), [](const Obstacle* o) {

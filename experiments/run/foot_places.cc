@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "experiments/run/margin_words.h"
+#include "planner/search/step_set.h"
 #include "wpg/files/text.h"
 #include "wpg/nth.h"
 
@@ -88,7 +89,7 @@ FootPlace FootPlaces::At(Side side, const Foothold& X_WF) const {
       const Margin margin = evaluator_.clearances().OfBody(b, posture, 0.0, kNear, &scratch.bodies);
       if (margin.other < 0 || margin.value >= place.clearance) continue;
       place.clearance = margin.value;
-      place.obstacle = Nth(scene().obstacles, margin.other).name;
+      place.obstacle = scene().NameOf(margin.other);
     }
   }
   place.free = !place.on_area && place.clearance >= limits().demanded_of(MarginFamily::kClearance);
@@ -96,9 +97,12 @@ FootPlace FootPlaces::At(Side side, const Foothold& X_WF) const {
 }
 
 std::string GoalWithoutPlace(const GoalRegion& goal, const FootPlaces& places) {
-  if (places.scene().obstacles.empty() && places.scene().no_step.empty()) return "";
+  if (places.scene().obstacles.empty() && places.scene().no_step.empty() &&
+      !HasLevels(*places.scene().ground)) {
+    return "";
+  }
   const double half_width = 0.5 * places.robot().standing_width;
-  const double height = places.scene().ground->HeightEverywhere();
+  const Ground& ground = *places.scene().ground;
   int tried = 0;
   bool all_on_area = true;
   std::map<std::string, int> obstacles;
@@ -110,7 +114,14 @@ std::string GoalWithoutPlace(const GoalRegion& goal, const FootPlaces& places) {
         if (goal.part == GoalPart::kMidFeet) {
           X_WF = X_WF * Pose2{0.0, side == Side::kLeft ? half_width : -half_width, 0.0};
         }
-        const FootPlace place = places.At(side, {X_WF, height});
+        const auto stands = ground.Standing(places.robot().sole_outline, X_WF);
+        if (!stands) {
+          ++obstacles["an edge of the ground"];
+          all_on_area = false;
+          if (goal.part == GoalPart::kMidFeet) free = false;
+          continue;
+        }
+        const FootPlace place = places.At(side, *stands);
         free = goal.part == GoalPart::kMidFeet ? free && place.free : free || place.free;
         on_area = on_area || place.on_area;
         if (!place.free && place.obstacle) ++obstacles[*place.obstacle];

@@ -27,7 +27,9 @@ std::string Filled(std::string_view sentence,
 std::string ValueWords(const Margin& margin, const std::string& subject) {
   const FamilyTraits& traits = Traits(margin.family);
   const size_t dash = std::min(subject.find(" - "), subject.size());
-  return Filled(margin.value < 0.0 ? traits.sentence.beyond : traits.sentence.inside,
+  const bool of_two = margin.other >= 0 && !traits.of_two.inside.empty();
+  const MarginSentence& sentence = of_two ? traits.of_two : traits.sentence;
+  return Filled(margin.value < 0.0 ? sentence.beyond : sentence.inside,
                 {{"{family}", std::string(traits.name)},
                  {"{amount}", Amount(std::abs(margin.value), traits.unit)},
                  {"{subject}", subject},

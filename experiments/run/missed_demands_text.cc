@@ -29,16 +29,17 @@ std::string FloorHint(const MarginEvaluator& evaluator, const MissedDemands& mis
   for (const MissedDemand& demand : missed.demands) {
     const Margin& worst = demand.worst;
     if (worst.family != MarginFamily::kClearance || worst.other < 0) continue;
-    const Obstacle& obstacle = Nth(evaluator.scene().obstacles, worst.other);
-    const auto* mesh = std::get_if<TriangleMesh>(&obstacle.shape);
+    const Obstacle* obstacle = evaluator.scene().ObstacleAt(worst.other);
+    if (obstacle == nullptr) continue;
+    const auto* mesh = std::get_if<TriangleMesh>(&obstacle->shape);
     if (mesh == nullptr || mesh->hollow) continue;
     const double floor = evaluator.scene().ground->Floor();
-    const double area = FloorArea(*mesh, obstacle.X_WO, floor, kFloorTolerance);
+    const double area = FloorArea(*mesh, obstacle->X_WO, floor, kFloorTolerance);
     if (area < kFootprint) continue;
     return Formatted(
         "%s has %.3g m² of floor at z = %.3g, which are in the way like all of it; if the robot is "
         "to stand on them, say `floor: in_mesh` in its `mesh`",
-        obstacle.name.c_str(), area, floor);
+        obstacle->name.c_str(), area, floor);
   }
   return "";
 }

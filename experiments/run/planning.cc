@@ -1,6 +1,9 @@
 #include "experiments/run/planning.h"
 
+#include <algorithm>
 #include <chrono>
+#include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "experiments/run/isolated_step.h"
@@ -14,23 +17,33 @@
 #include "smoothing/margins/not_covered_by.h"
 #include "wpg/check.h"
 #include "wpg/files/input_error.h"
+#include "wpg/files/suggestion.h"
+#include "wpg/files/text.h"
+#include "wpg/motion/half_step_tracks.h"
 #include "wpg/nth.h"
+#include "wpg/robot/robot_measures.h"
 
 namespace halfstep {
 namespace {
 
-// As a config says it, where the ground gives the height back.
-Pose2 SaidInConfig(const Foothold& X_WF, const Place& place) {
-  const Foothold again = OnGround(*place.scene.ground, place.robot, X_WF.Planar(), "plan");
+// What a config has to say beside the place seen from above, so that the ground gives the height
+// back.
+LevelChoice SaidInConfig(const Foothold& X_WF, const Place& place) {
+  const Ground& ground = *place.scene.ground;
+  const auto highest = ground.Standing(place.robot.sole_outline, X_WF.Planar());
+  LevelChoice choice;
+  if (!highest || highest->height != X_WF.height) choice.z = X_WF.height;
+  const Foothold again = OnGround(ground, place.robot, X_WF.Planar(), "plan", choice);
   HALFSTEP_CHECK(again == X_WF,
                  "a sole at " << X_WF.height << " m, above " << again.height << " m");
-  return X_WF.Planar();
+  return choice;
 }
 
 FootstepConfig ToConfig(const Footstep& footstep, const Place& place) {
   FootstepConfig config;
   config.foot = Name(footstep.side);
-  config.X_WF = SaidInConfig(footstep.X_WF, place);
+  config.X_WF = footstep.X_WF.Planar();
+  config.on = SaidInConfig(footstep.X_WF, place);
   return config;
 }
 
@@ -74,6 +87,79 @@ StepSet CertifiedHalfSteps(const RobotModel& robot, const ExperimentConfig& conf
       progress);
 }
 
+namespace {
+
+// Half-steps between two levels.
+class LevelCertifier {
+ public:
+  LevelCertifier(const RobotModel& robot, const ExperimentConfig& config)
+      : robot_(robot),
+        config_(config),
+        model_(MotionModelOf(robot, PrototypeOf(config).shape)),
+        floor_(Demandable(config.smoothing.limits, robot).demanded_of(MarginFamily::kFloor)) {}
+
+  bool Certifies(const HalfStep& half_step) {
+    if (!KeepsOffItsFootstep(half_step)) return false;
+    const double lower = std::min(0.0, half_step.X_SF.height);
+    auto over = over_.find(lower);
+    if (over == over_.end()) {
+      Scene scene;
+      scene.ground = std::make_shared<const FlatGround>(lower);
+      over = over_.try_emplace(lower, robot_, scene, config_).first;
+    }
+    return over->second.Certifies(half_step, {});
+  }
+
+ private:
+  // What a floor at the lower footstep does not say. The sole rises or sinks all the time, so it is
+  // lowest where its horizontal motion meets the footstep.
+  bool KeepsOffItsFootstep(const HalfStep& half_step) const {
+    constexpr double kRounding = 1e-12;
+    const HalfStepTracks tracks(half_step, *model_);
+    const double lowest =
+        half_step.kind == HalfStepKind::kUp ? tracks.horizontal_begin() : tracks.horizontal_end();
+    const double z = tracks.At(lowest).value[FootIndex(half_step.swing()) + 2];
+    return z - half_step.X_SF.height >= floor_ + kRounding;
+  }
+
+  const RobotModel& robot_;
+  const ExperimentConfig& config_;
+  std::shared_ptr<const MotionModel> model_;
+  double floor_;                              // demanded [m]
+  std::map<double, HalfStepCertifier> over_;  // by the height of the floor
+};
+
+// Differences of height by which a foot may be tried to land higher or lower.
+std::vector<double> RisesOn(const Ground& ground, const RobotModel& robot) {
+  constexpr double kOfLeg = 0.4;  // no humanoid's step is higher
+  constexpr size_t kMost = 16;    // each has to be certified and baked
+  std::vector<double> heights;
+  for (const GroundLevel& level : ground.Levels()) heights.push_back(level.height);
+  const double most = kOfLeg * LegLengthOf(robot);
+  std::vector<double> rises = RisesBetween(heights, most);
+  if (rises.size() <= kMost) return rises;
+  throw InputError({Formatted(
+      "scene: its levels have %zu differences of height within %.2g m, each of which takes "
+      "half-steps of its own (valid: at most %zu, by fewer or equal heights; or footsteps in place "
+      "of a goal)",
+      rises.size(), most, kMost)});
+}
+
+}  // namespace
+
+StepSet CertifiedHalfStepsOn(const Ground& ground, const RobotModel& robot,
+                             const ExperimentConfig& config,
+                             const std::function<bool(double)>& progress) {
+  LevelCertifier certifier(robot, config);
+  return MakeStepSet(
+      config.step_set, PrototypeOf(config), RisesOn(ground, robot),
+      [&](const HalfStep& half_step) {
+        return certifier.Certifies(half_step) &&
+               (robot.legs_are_mirrored || certifier.Certifies(half_step.Mirrored()));
+      },
+      progress);
+}
+
 Acceptance CertifyPlan(const CertifiedFeasibility& test, const HalfStepSequence& sequence) {
   const SuperposedWalk walk(sequence, PlannedMotion(sequence));
   MarginEvaluator::Scratch scratch = test.evaluator().MakeScratch();
@@ -94,6 +180,13 @@ std::string MissedInPlace(const RobotModel& robot, const Scene& scene,
                           const ExperimentConfig& config) {
   const HalfStep prototype = PrototypeOf(config);
   const std::array<Foothold, 2> start = StartOf(config, robot, *scene.ground);
+  const double higher = std::abs(start[0].height - start[1].height);
+  if (higher > prototype.via_height) {
+    return Formatted(
+        "; one foot stands %.3g m higher than the other, and `half_step.via_height_m` "
+        "is %.3g",
+        higher, prototype.via_height);
+  }
   const Footstep footstep{.side = Side::kLeft,
                           .X_WF = Nth(start, Index(Side::kLeft)),
                           .via_height = prototype.via_height,
@@ -121,6 +214,11 @@ std::string MissedInPlace(const RobotModel& robot, const Scene& scene,
 
 BakedHalfSteps BakeHalfSteps(const RobotModel& robot, const ExperimentConfig& config,
                              const PlanningHooks& hooks) {
+  return BakeHalfSteps(robot, config, FlatGround(), hooks);
+}
+
+BakedHalfSteps BakeHalfSteps(const RobotModel& robot, const ExperimentConfig& config,
+                             const Ground& ground, const PlanningHooks& hooks) {
   const auto progress = [&hooks](const char* what) {
     return [&hooks, what](double done) {
       if (hooks.progress) hooks.progress(what, done);
@@ -129,7 +227,9 @@ BakedHalfSteps BakeHalfSteps(const RobotModel& robot, const ExperimentConfig& co
   };
   BakedHalfSteps baked;
   const double begin = SteadySeconds();
-  const StepSet set = CertifiedHalfSteps(robot, config, progress("half-steps"));
+  const StepSet set = HasLevels(ground)
+                          ? CertifiedHalfStepsOn(ground, robot, config, progress("half-steps"))
+                          : CertifiedHalfSteps(robot, config, progress("half-steps"));
   const double set_done = SteadySeconds();
   baked.set_wall = set_done - begin;
   baked.size = set.size();
@@ -145,6 +245,9 @@ BakedHalfSteps BakeHalfSteps(const RobotModel& robot, const ExperimentConfig& co
   // One distance for all bodies, as far as any of them may be from its place.
   options.clearance =
       limits.demanded_of(MarginFamily::kClearance) + TubeShift(robot, limits.tube).body;
+  if (set.on_levels) {  // also the sole's while it moves over solids
+    options.clearance = std::max(options.clearance, limits.demanded_of(MarginFamily::kFloor));
+  }
   std::string folder = DefaultCacheFolder();
   if (!config.swept_volumes.cache.empty()) {
     folder = (std::filesystem::path(config.directory) / config.swept_volumes.cache).string();
@@ -163,8 +266,10 @@ ExperimentConfig WithFootsteps(ExperimentConfig config, const std::array<Foothol
                                const std::vector<Footstep>& footsteps, const Place& place) {
   config.has_goal = false;
   config.has_start = true;
-  config.start_left = SaidInConfig(start[0], place);
-  config.start_right = SaidInConfig(start[1], place);
+  config.start_left = start[0].Planar();
+  config.start_right = start[1].Planar();
+  config.start_left_on = SaidInConfig(start[0], place);
+  config.start_right_on = SaidInConfig(start[1], place);
   for (const Footstep& footstep : footsteps) {
     config.footsteps.push_back(ToConfig(footstep, place));
   }
@@ -189,11 +294,20 @@ PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
                      const PlanningHooks& hooks) {
   HALFSTEP_CHECK(config.has_goal, "no goal");
   CheckPlaces(place.scene);  // before minutes of baking
+  const Ground& ground = *place.scene.ground;
+  const auto planner =
+      config.planner.known.Make(config.planner.name, place.scene, config.planner.options);
+  if (HasLevels(ground) && !planner->knows_levels()) {
+    throw InputError({"planner.name: " + Quote(config.planner.name) +
+                      " plans at one height only, and the scene's ground has levels (valid: rrt, "
+                      "astar, astar/classic)"});
+  }
+  const auto goal_level = ChosenLevel(ground, "goal", {.name = config.goal.level});
   PlannedWalk walk{.config = config,
                    .plan = {},
                    .half_steps = {},
                    .not_covered = NotCoveredBy(place.robot, place.scene, config.smoothing.limits)};
-  walk.half_steps = BakeHalfSteps(place.robot, config, hooks);
+  walk.half_steps = BakeHalfSteps(place.robot, config, ground, hooks);
   if (!walk.half_steps.cached.volumes) {
     walk.plan.status = PlanStatus::kInterrupted;
     walk.plan.sentence = "interrupted while half-steps were baked";
@@ -206,8 +320,9 @@ PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
   }
   const SweptVolumes& volumes = *walk.half_steps.cached.volumes;
   const MarginLimits limits = Demandable(config.smoothing.limits, place.robot);
-  const SweptVolumeQuery query(volumes, place.robot.sole_outline, place.scene,
-                               limits.demanded_of(MarginFamily::kNoStep));
+  const SweptVolumeQuery query(
+      volumes, place.robot.sole_outline, place.scene, limits.demanded_of(MarginFamily::kNoStep),
+      std::numeric_limits<double>::infinity(), limits.demanded_of(MarginFamily::kFoothold));
   const HalfStepCertifier certifier(place.robot, place.scene, config);
   const MarginEvaluator evaluator(place.robot, place.scene, config.smoothing.limits);
   const CertifiedFeasibility test(evaluator, config.smoothing.certification);
@@ -218,11 +333,16 @@ PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
                       .set = volumes.set,
                       .query = query,
                       .cost = config.planner.Cost()};
+  if (goal_level) request.goal.height = goal_level->height;
+  if (HasLevels(ground)) {
+    for (const GroundLevel& level : ground.Levels()) request.levels.push_back(level.height);
+    std::ranges::sort(request.levels);
+  }
   if (const auto& w = config.planner.workspace; !w.empty()) {
     request.workspace = {Eigen::Vector2d(w[0], w[1]), Eigen::Vector2d(w[2], w[3])};
   }
   request.start_is_free = [&](const HalfStep& up, const Foothold& X_WS) {
-    return certifier.Certifies(up, X_WS);
+    return up.X_SF.height <= up.via_height && certifier.Certifies(up, X_WS);
   };
   request.accepts = [&](const std::vector<Footstep>& footsteps) {
     return CertifyPlan(
@@ -233,8 +353,7 @@ PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
   request.clock = SteadySeconds;
   request.stop = StopOf(config.planner, hooks);
   std::mt19937_64 random(static_cast<std::uint64_t>(config.seed));
-  walk.plan = config.planner.known.Make(config.planner.name, place.scene, config.planner.options)
-                  ->Plan(request, random);
+  walk.plan = planner->Plan(request, random);
   if (walk.plan.status == PlanStatus::kSolved) {
     walk.config = WithFootsteps(config, request.start, walk.plan.footsteps, place);
   } else {

@@ -37,6 +37,14 @@ class HalfStepCertifier {
 StepSet CertifiedHalfSteps(const RobotModel& robot, const ExperimentConfig& config,
                            const std::function<bool(double)>& progress = {});
 
+/// The same on the levels of a ground: also half-steps to what is higher or lower by a difference
+/// of its levels. Each is proved over a floor at the lower of its two footsteps, and its sole keeps
+/// `floor` above its own footstep while it moves horizontally. Throws InputError when there are too
+/// many differences.
+StepSet CertifiedHalfStepsOn(const Ground& ground, const RobotModel& robot,
+                             const ExperimentConfig& config,
+                             const std::function<bool(double)>& progress = {});
+
 /// Whether the concatenation keeps every demanded margin for all t; a refusal names the footstep
 /// whose half-steps are to blame.
 Acceptance CertifyPlan(const CertifiedFeasibility& test, const HalfStepSequence& sequence);
@@ -63,6 +71,9 @@ struct BakedHalfSteps {
 /// bakes them and puts them there.
 BakedHalfSteps BakeHalfSteps(const RobotModel& robot, const ExperimentConfig& config,
                              const PlanningHooks& hooks);
+/// The same for a ground: on its levels where it HasLevels.
+BakedHalfSteps BakeHalfSteps(const RobotModel& robot, const ExperimentConfig& config,
+                             const Ground& ground, const PlanningHooks& hooks);
 
 /// A plan and what it was made with.
 struct PlannedWalk {

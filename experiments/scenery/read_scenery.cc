@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kKinds =
     "valid: .scene, .yaml of a planning scene, .urdf, .sdf, .world, .ply, .gltf, .glb, .stl, .obj, "
-    ".dae, .pcd, .bt, .ot, .pgm";
+    ".dae, .pcd, .bt, .ot, .pgm, .png";
 
 std::string LowerExtension(const std::string& path) {
   std::string extension = fs::path(path).extension().string();
@@ -82,15 +82,13 @@ Scenery ReadScenery(const std::string& path, const SceneryRequest& request) {
   if (kind == ".bt" || kind == ".ot") {
     return NamedCloud(path, true, request);
   }
-  if (kind == ".png") {
-    throw InputError({path + ": PNG is not read (`convert map.png map.pgm` makes a PGM of it)"});
-  }
   const bool is_known = kind == ".scene" || kind == ".yaml" || kind == ".yml" || kind == ".urdf" ||
                         kind == ".sdf" || kind == ".world" || kind == ".xml" || kind == ".xacro" ||
-                        kind == ".ply" || kind == ".gltf" || kind == ".glb" || kind == ".pgm";
+                        kind == ".ply" || kind == ".gltf" || kind == ".glb" || kind == ".pgm" ||
+                        kind == ".png";
   if (!is_known) throw InputError({path + ": unknown kind of file (" + kKinds + ")"});
   const std::string bytes = ReadRegularFile(path, kMaxMeshBytes);
-  if (kind == ".pgm") return ReadHeightmap(path, bytes, request);
+  if (kind == ".pgm" || kind == ".png") return ReadHeightmap(path, bytes, request);
   if (kind == ".ply") {
     if (request.as_points || !HasFaces(path, bytes)) {
       return NamedCloud(path, false, request);

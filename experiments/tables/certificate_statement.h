@@ -61,7 +61,7 @@ struct StatedOnRequest {
   bool double_support = false;  ///< whether it is demanded
   bool landing_speed = false;   ///< whether there is a limit
   bool tube = false;            ///< whether it holds in a tube
-  bool levels = false;          ///< whether soles may stand at different heights
+  bool levels = false;          ///< whether the ground has more levels than one, or borders
 };
 
 /// The same for a robot and what is demanded of its walks: where its joint accelerations have
@@ -86,6 +86,10 @@ inline std::string CertificateStatement(const RobotModel& robot, const StatedOnR
   if (stated.tube) insert("What is not covered", kTubeStatement);
   if (stated.landing_speed) {
     insert("ZMP of the linear", "how fast the swing foot sinks in its last centimetre, ");
+  }
+  if (stated.levels) {
+    insert("ZMP of the whole robot, with",
+           "how far inside one level of the ground the outline of every sole that stands lies, ");
   }
   if (stated.double_support) {
     insert(") is at least", ", how long the ZMP of each half-step goes from foot to foot");

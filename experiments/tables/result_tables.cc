@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "experiments/tables/parameter_tables.h"
+#include "planner/ground/level_surface.h"
 #include "smoothing/proof/sampled_feasibility.h"
 #include "smoothing/walk/footstep_families.h"
 #include "wpg/nth.h"
@@ -21,6 +22,21 @@ std::string Active(const MarginEvaluator& evaluator, const std::string& method,
   return junction.overlap < junction.upper_bound ? "not bisected" : "upper bound";
 }
 
+// Whether a sole of the plan stands elsewhere than at z = 0.
+bool HasHeights(const HalfStepSequence& sequence) {
+  const auto is_high = [](const Foothold& X_WF) { return X_WF.height != 0.0; };
+  return std::ranges::any_of(sequence.start, is_high) ||
+         std::ranges::any_of(sequence.half_steps, [&](const PlacedHalfStep& placed) {
+           return is_high(placed.X_WS) || is_high(placed.half_step.X_SF);
+         });
+}
+
+// Levels are whole nanometres; a height that was added up is rounded.
+Foothold OnItsLevel(Foothold X_WF) {
+  X_WF.height = WholeNanometres(X_WF.height);
+  return X_WF;
+}
+
 // The bound that a method knows; none: none does.
 std::optional<double> BoundOf(const std::vector<MethodRun>& runs) {
   for (const MethodRun& run : runs) {
@@ -31,8 +47,8 @@ std::optional<double> BoundOf(const std::vector<MethodRun>& runs) {
 
 }  // namespace
 
-CsvFile FootstepsCsv(const HalfStepSequence& sequence) {
-  CsvWriter csv({
+CsvColumns FootstepsColumns(bool with_heights) {
+  CsvColumns columns = {
       {"footstep", kInteger, "", "0 twice: the feet at the start; then 1, 2, ..."},
       {"foot", kString, "", "left or right"},
       {"x_m", kNumber, "m", "sole's centre, x", "W"},
@@ -40,18 +56,27 @@ CsvFile FootstepsCsv(const HalfStepSequence& sequence) {
       {"yaw_rad", kNumber, "rad", "sole's yaw, not wrapped", "W"},
       {"via_height_m", kNumber, "m", "height of the via point of the step there; 0 at the start"},
       {"duration_s", kNumber, "s", "T of each of the step's half-steps; 0 at the start"},
-  });
+  };
+  if (with_heights) {
+    columns.insert(columns.begin() + 4, {"z_m", kNumber, "m", "height of the level there", "W"});
+  }
+  return columns;
+}
+
+CsvFile FootstepsCsv(const HalfStepSequence& sequence) {
+  const bool has_heights = HasHeights(sequence);
+  CsvWriter csv(FootstepsColumns(has_heights));
   const auto row = [&](int index, Side side, const Foothold& X_WF, double height, double duration) {
-    X_WF.CheckLevel();
-    csv.Cell(index).Cell(Name(side)).Cell(X_WF.x).Cell(X_WF.y).Cell(X_WF.yaw);
-    csv.Cell(height).Cell(duration).EndRow();
+    csv.Cell(index).Cell(Name(side)).Cell(X_WF.x).Cell(X_WF.y);
+    if (has_heights) csv.Cell(X_WF.height);
+    csv.Cell(X_WF.yaw).Cell(height).Cell(duration).EndRow();
   };
   for (Side side : {Side::kLeft, Side::kRight}) {
     row(0, side, Nth(sequence.start, Index(side)), 0.0, 0.0);
   }
   for (int step = 0; step < sequence.num_steps(); ++step) {
     const PlacedHalfStep& down = Nth(sequence.half_steps, 2 * step + 1);
-    row(step + 1, down.half_step.swing(), down.X_WS * down.half_step.X_SF,
+    row(step + 1, down.half_step.swing(), OnItsLevel(down.X_WS * down.half_step.X_SF),
         down.half_step.via_height, down.half_step.duration);
   }
   return csv.file();

@@ -33,32 +33,20 @@ enum Family : int {
   kJointAcceleration,
   kDoubleSupport,
   kLandingSpeed,
+  kFoothold,
   kOwn  ///< what the program that made the run registered; its formula is not known here
 };
 constexpr int kNumFamilies = kOwn + 1;  ///< how many families a certificate has
 /// Their names in certificate.csv and certificate.json, and their units.
-constexpr std::array<const char*, kNumFamilies> kFamilyNames = {"floor",
-                                                                "foot_speed",
-                                                                "foot_yaw_rate",
-                                                                "zmp",
-                                                                "reach",
-                                                                "joint",
-                                                                "joint_speed",
-                                                                "self_clearance",
-                                                                "clearance",
-                                                                "ground",
-                                                                "no_step",
-                                                                "zmp_robot",
-                                                                "torque",
-                                                                "friction",
-                                                                "joint_acceleration",
-                                                                "double_support",
-                                                                "landing_speed",
-                                                                "own"};
+constexpr std::array<const char*, kNumFamilies> kFamilyNames = {
+    "floor",          "foot_speed",    "foot_yaw_rate",  "zmp",       "reach",
+    "joint",          "joint_speed",   "self_clearance", "clearance", "ground",
+    "no_step",        "zmp_robot",     "torque",         "friction",  "joint_acceleration",
+    "double_support", "landing_speed", "foothold",       "own"};
 /// Of the families' margins.
 constexpr std::array<const char*, kNumFamilies> kUnits = {
-    "m", "m/s", "rad/s", "m",   "m", "rad",    "rad/s", "m",   "m",
-    "m", "m",   "m",     "N m", "1", "rad/s²", "s",     "m/s", "1"};
+    "m", "m/s", "rad/s", "m", "m",      "rad", "rad/s", "m", "m", "m",
+    "m", "m",   "N m",   "1", "rad/s²", "s",   "m/s",   "m", "1"};
 static_assert(std::string_view(kFamilyNames.back()) == "own" && kUnits.back() != nullptr,
               "a family lacks its name or its unit");
 
@@ -72,7 +60,7 @@ constexpr bool IsOfDynamics(Family family) {
 /// Whether only certificates of some robots or programs have a family.
 constexpr bool MayBeAbsent(Family family) {
   return family == kJointAcceleration || family == kDoubleSupport || family == kLandingSpeed ||
-         family == kOwn;
+         family == kFoothold || family == kOwn;
 }
 /// Whether nothing may be demanded of a family.
 constexpr bool MayBeLeftOut(Family family) {

@@ -39,6 +39,7 @@ long CountOf(Family family, const RobotModel& robot) {
       return 1;
     case kDoubleSupport:
     case kLandingSpeed:
+    case kFoothold:  // not derived here yet: uneven ground is refused
     case kOwn:
       break;
   }

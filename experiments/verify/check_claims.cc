@@ -167,6 +167,7 @@ class Claims {
       case kSelfClearance:
       case kClearance:
       case kDoubleSupport:
+      case kFoothold:
       case kOwn:
         break;
     }

@@ -239,20 +239,19 @@ void CheckFootsteps(const std::vector<FootstepRow>& rows, const WalkPlan& planne
   }
   for (size_t i = 0; i < rows.size(); ++i) {
     Side side = i == 0 ? Side::kLeft : Side::kRight;
-    // footsteps.csv says no heights: these follow from the ground, as config.yaml's do.
-    Pose2 X_WF = planned.start[std::min<size_t>(i, 1)].Planar();
+    Foothold X_WF = planned.start[std::min<size_t>(i, 1)];
     double height = 0, duration = 0;
     if (i >= 2) {
       const PlacedHalfStep& down = planned.half_steps[2 * (i - 2) + 1];
       side = down.half_step.swing();
-      X_WF = (down.X_WS * down.half_step.X_SF).Planar();
+      X_WF = down.X_WS * down.half_step.X_SF;
       height = down.half_step.via_height;
       duration = down.half_step.duration;
     }
     const FootstepRow& row = rows[i];
     if (row.foot != Name(side) || !Same(row.X_WF.x, X_WF.x) || !Same(row.X_WF.y, X_WF.y) ||
-        !Same(row.X_WF.yaw, X_WF.yaw) || !Same(row.via_height, height) ||
-        !Same(row.duration, duration)) {
+        !Same(row.X_WF.yaw, X_WF.yaw) || !Same(row.z, X_WF.height) ||
+        !Same(row.via_height, height) || !Same(row.duration, duration)) {
       findings->Disagree(Formatted("footsteps.csv:%zu: not the footstep of config.yaml", i + 2));
     }
   }

@@ -178,6 +178,11 @@ Inputs InputsOf(const VerifyOptions& options, const ExperimentConfig& config,
     CheckPassed("scene", found.passed, config.scene, findings);
     inputs.scene = std::move(found.input);
   }
+  if (!inputs.scene.ground->OnlyLevel()) {
+    throw InputError(
+        {"verify: the scene's ground is uneven, and its levels are not derived here yet "
+         "(valid: a run on the flat floor)"});
+  }
   return inputs;
 }
 

@@ -75,17 +75,23 @@ std::vector<double> ReadOverlapsOfEpisode(const std::string& path, const std::st
 }
 
 std::vector<FootstepRow> ReadFootsteps(const std::string& path, const std::string& text) {
-  const CsvText csv(path, text,
-                    {"footstep", "foot", "x_m", "y_m", "yaw_rad", "via_height_m", "duration_s"});
+  std::vector<std::string> columns = {"footstep", "foot",         "x_m",       "y_m",
+                                      "yaw_rad",  "via_height_m", "duration_s"};
+  // Where soles stand at heights.
+  const bool has_heights = text.substr(0, text.find('\n')).find(",z_m,") != std::string::npos;
+  const size_t yaw = has_heights ? 5 : 4;
+  if (has_heights) columns.insert(columns.begin() + 4, "z_m");
+  const CsvText csv(path, text, columns);
   std::vector<FootstepRow> rows;
   for (size_t i = 0; i < csv.size(); ++i) {
     const int footstep = i < 2 ? 0 : static_cast<int>(i) - 1;
     csv.CheckFirst(i, footstep);
     rows.push_back({.footstep = footstep,
                     .foot = csv.Word(i, 1, {"left", "right"}),
-                    .X_WF = {csv.Number(i, 2), csv.Number(i, 3), csv.Number(i, 4)},
-                    .via_height = csv.Number(i, 5),
-                    .duration = csv.Number(i, 6)});
+                    .X_WF = {csv.Number(i, 2), csv.Number(i, 3), csv.Number(i, yaw)},
+                    .z = has_heights ? csv.Number(i, 4) : 0.0,
+                    .via_height = csv.Number(i, yaw + 1),
+                    .duration = csv.Number(i, yaw + 2)});
   }
   return rows;
 }

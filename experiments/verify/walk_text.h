@@ -33,7 +33,8 @@ struct OverlapRow {
 struct FootstepRow {
   int footstep = 0;                     ///< 0: a foot at the start
   std::string foot;                     ///< left or right
-  Pose2 X_WF;                           ///< place of the sole, in W
+  Pose2 X_WF;                           ///< place of the sole, in W, seen from above
+  double z = 0;                         ///< its height [m]
   double via_height = 0, duration = 0;  ///< [m], [s]
 };
 

@@ -10,6 +10,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "planner/scene/solid_body.h"
 #include "wpg/check.h"
 #include "wpg/nth.h"
 
@@ -55,31 +56,38 @@ double CollisionWorld::Uncertainty::Most(double t, double half_width) const {
 }
 
 CollisionWorld::CollisionWorld(const Scene& scene)
-    : shapes_(std::make_shared<Shapes>(scene.obstacles.size())) {
+    : has_solids_(!scene.ground->Solids().empty()),
+      shapes_(std::make_shared<Shapes>(scene.obstacles.size() + scene.ground->Solids().size())) {
   std::vector<Eigen::AlignedBox3d> boxes;
   for (const Obstacle& obstacle : scene.obstacles) {
-    CheckFinite(obstacle.X_WO);
-    const int index = num_obstacles();
-    const bool still = obstacle.rests() && obstacle.motion.error == 0.0;
-    const bool has_waypoints = !obstacle.motion.waypoints.empty();
-    const double radius = has_waypoints ? RadiusAboutOrigin(obstacle.shape) : 0.0;
-    entries_.push_back({obstacle.X_WO, obstacle.motion, obstacle.speed(), radius, still,
-                        BoundsOf(obstacle.shape, obstacle.X_WO)});
-    if (const auto* mesh = std::get_if<TriangleMesh>(&obstacle.shape)) {
-      Nth(shapes_->made, index).emplace(*mesh);
-      shapes_->shapes.emplace_back();
-    } else {
-      shapes_->shapes.push_back(obstacle.shape);
-    }
-    if (has_waypoints) {
-      on_the_way_.push_back(index);
-    } else {
-      in_tree_.push_back(index);
-      boxes.push_back(entries_.back().bounds_W);
-      if (!still) uncertainty_.Add(obstacle.motion);
-    }
+    Add(obstacle, std::numeric_limits<double>::infinity(), &boxes);
   }
+  for (const GroundSolid& solid : scene.ground->Solids()) Add(BodyOf(solid), solid.top, &boxes);
   tree_ = BoundsTree(boxes, 4);
+}
+
+void CollisionWorld::Add(const Obstacle& obstacle, double top,
+                         std::vector<Eigen::AlignedBox3d>* boxes) {
+  CheckFinite(obstacle.X_WO);
+  const int index = num_obstacles();
+  const bool still = obstacle.rests() && obstacle.motion.error == 0.0;
+  const bool has_waypoints = !obstacle.motion.waypoints.empty();
+  const double radius = has_waypoints ? RadiusAboutOrigin(obstacle.shape) : 0.0;
+  entries_.push_back({obstacle.X_WO, obstacle.motion, obstacle.speed(), radius, still,
+                      BoundsOf(obstacle.shape, obstacle.X_WO), top});
+  if (const auto* mesh = std::get_if<TriangleMesh>(&obstacle.shape)) {
+    Nth(shapes_->made, index).emplace(*mesh);
+    shapes_->shapes.emplace_back();
+  } else {
+    shapes_->shapes.push_back(obstacle.shape);
+  }
+  if (has_waypoints) {
+    on_the_way_.push_back(index);
+  } else {
+    in_tree_.push_back(index);
+    boxes->push_back(entries_.back().bounds_W);
+    if (!still) uncertainty_.Add(obstacle.motion);
+  }
 }
 
 const CollisionShape& CollisionWorld::ShapeOf(int obstacle) const {
@@ -92,7 +100,8 @@ const CollisionShape& CollisionWorld::ShapeOf(int obstacle) const {
 
 CollisionWorld::Nearest CollisionWorld::FindNearest(const CollisionShape& body,
                                                     const Eigen::Isometry3d& X_WB, double t,
-                                                    double cap, double half_width) const {
+                                                    double cap, double half_width,
+                                                    double above) const {
   CheckFinite(X_WB);
   CheckTime(t);
   Nearest nearest;
@@ -109,6 +118,7 @@ CollisionWorld::Nearest CollisionWorld::FindNearest(const CollisionShape& body,
   };
   const auto add_obstacle = [&](int i) {
     const Entry& entry = Nth(entries_, i);
+    if (entry.top <= above) return;
     add(ToBox(center_W, entry.bounds_W).norm() - body.radius() -
             (Moved(entry, t) + Taken(entry, t, half_width)),
         true, i);
@@ -151,7 +161,8 @@ CollisionWorld::Nearest CollisionWorld::FindNearest(const CollisionShape& body,
 }
 
 bool CollisionWorld::Clears(const CollisionShape& body, const Eigen::Isometry3d& X_WB, double t,
-                            double clearance, Scratch* scratch, double half_width) const {
+                            double clearance, Scratch* scratch, double half_width,
+                            double above) const {
   CheckFinite(X_WB);
   CheckTime(t);
   const Eigen::Vector3d center_W = X_WB * body.center();
@@ -163,6 +174,7 @@ bool CollisionWorld::Clears(const CollisionShape& body, const Eigen::Isometry3d&
   std::sort(near.begin(), near.end());
   for (const int i : near) {
     const Entry& entry = Nth(entries_, i);
+    if (entry.top <= above) continue;
     const double distance = clearance + Taken(entry, t, half_width);
     const double reach = body.radius() + distance + Moved(entry, t);
     const double distance2 = ToBox(center_W, entry.bounds_W).squaredNorm();

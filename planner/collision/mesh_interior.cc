@@ -6,12 +6,12 @@
 #include <utility>
 #include <vector>
 
-#include "planner/collision/bounds_tree.h"
 #include "planner/collision/mesh_patches.h"
 #include "planner/collision/open_patches.h"
 #include "planner/collision/patch_winding.h"
 #include "planner/scene/voxel_set.h"
 #include "wpg/check.h"
+#include "wpg/geometry/bounds_tree.h"
 #include "wpg/nth.h"
 
 namespace halfstep {

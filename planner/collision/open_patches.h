@@ -5,9 +5,9 @@
 #include <deque>
 #include <vector>
 
-#include "planner/collision/bounds_tree.h"
 #include "planner/collision/patch_winding.h"
 #include "planner/scene/shape.h"
+#include "wpg/geometry/bounds_tree.h"
 
 namespace halfstep {
 

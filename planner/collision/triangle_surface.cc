@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "planner/collision/bounds_tree.h"
 #include "planner/collision/triangle_tree.h"
 #include "wpg/check.h"
+#include "wpg/geometry/bounds_tree.h"
 #include "wpg/nth.h"
 
 namespace halfstep {

@@ -4,8 +4,8 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "planner/collision/bounds_tree.h"
 #include "planner/scene/shape.h"
+#include "wpg/geometry/bounds_tree.h"
 
 namespace halfstep {
 

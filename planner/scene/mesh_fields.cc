@@ -1,13 +1,16 @@
 #include "planner/scene/mesh_fields.h"
 
+#include <cmath>
 #include <filesystem>
 #include <stdexcept>
 #include <utility>
 
+#include "planner/ground/mesh_levels.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/mesh_file.h"
 #include "wpg/files/text.h"
 #include "wpg/geometry/simplified_hull.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -52,6 +55,45 @@ void TakeUpAxis(bool applied, LoadedMesh* loaded, MeshFields* mesh) {
       up));
 }
 
+// The triangles of these numbers alone; only their surface is in the way.
+TriangleMesh PartOf(const TriangleMesh& mesh, const std::vector<Eigen::Index>& kept) {
+  TriangleMesh part{.vertices = mesh.vertices, .triangles = {}, .hollow = true};
+  part.triangles.resize(3, static_cast<Eigen::Index>(kept.size()));
+  for (Eigen::Index i = 0; i < part.triangles.cols(); ++i) {
+    part.triangles.col(i) = mesh.triangles.col(Nth(kept, i));
+  }
+  return part;
+}
+
+void TakeLevels(Fields& obstacle, const std::string& name, const Eigen::Isometry3d& X_WO,
+                double floor, MeshFields* mesh) {
+  const Eigen::Index count = mesh->mesh.triangles.cols();
+  const double tolerance = mesh->floor_tolerance;
+  int of_floor = 0;
+  if (std::isfinite(floor)) {
+    CutMesh cut = CutFloor(mesh->mesh, X_WO, floor, tolerance);
+    of_floor = cut.floor;
+    mesh->mesh = std::move(cut.rest);
+  }
+  const Eigen::Matrix3Xd vertices_W =
+      (X_WO.linear() * mesh->mesh.vertices).colwise() + X_WO.translation();
+  MeshLevels levels = LevelsOf(name, vertices_W, mesh->mesh.triangles, tolerance, floor);
+  if (levels.surfaces.empty()) {
+    obstacle.Complain("mesh",
+                      "nothing of it that faces up is level (valid: triangles counter-clockwise "
+                      "from outside, 100 cm² within floor_tolerance_m; or `floor: in_mesh`)");
+    return;
+  }
+  mesh->told.push_back(Formatted(
+      "floor: levels: of %d triangles %d are floor and %d lie on %d levels of %.3g m² in all, each "
+      "as high as its highest point; the other %d are in the way, what they surround is room",
+      static_cast<int>(count), of_floor,
+      static_cast<int>(mesh->mesh.triangles.cols()) - static_cast<int>(levels.kept.size()),
+      levels.levels, levels.area, static_cast<int>(levels.kept.size())));
+  mesh->mesh = PartOf(mesh->mesh, levels.kept);
+  mesh->surfaces = std::move(levels.surfaces);
+}
+
 }  // namespace
 
 void DeclareMesh(Fields& fields, MeshFields* mesh) {
@@ -70,19 +112,21 @@ void DeclareMesh(Fields& fields, MeshFields* mesh) {
   fields.Text(
       "floor", &floor,
       {.meaning = "in_mesh: what of it lies at or below the tolerance is floor, and what it "
-                  "surrounds is room",
-       .choices = {"none", "in_mesh"}});
+                  "surrounds is room; levels: and what of it is level bears",
+       .choices = {"none", "in_mesh", "levels"}});
   fields.Number("floor_tolerance_m", &mesh->floor_tolerance,
-                {.meaning = "how high above z = 0 the floor of `floor: in_mesh` may reach",
+                {.meaning = "how high above z = 0 the floor of `floor: in_mesh` may reach, and how "
+                            "much heights of one level may differ",
                  .unit = "m",
                  .min = 0.0,
                  .max = kMostFloorTolerance});
   fields.Text("dae_up_axis", &dae_up_axis,
               {.meaning = "applied: a mesh in DAE is turned so that its `up_axis` becomes z",
                .choices = {"ignored", "applied"}});
-  mesh->brings_floor = floor == "in_mesh";
+  mesh->has_levels = floor == "levels";
+  mesh->brings_floor = floor != "none";
   if (mesh->brings_floor && hull_vertices != 0) {
-    fields.Complain("floor", "in_mesh beside hull_vertices (valid: one of them)");
+    fields.Complain("floor", floor + " beside hull_vertices (valid: one of them)");
     return;
   }
   if (file.empty()) {
@@ -102,13 +146,22 @@ void DeclareMesh(Fields& fields, MeshFields* mesh) {
   }
 }
 
-void TakeFloor(Fields& obstacle, const Eigen::Isometry3d& X_WO, double floor, bool rests,
-               MeshFields* mesh) {
+void TakeFloor(Fields& obstacle, const std::string& name, const Eigen::Isometry3d& X_WO,
+               double floor, bool rests, MeshFields* mesh) {
   if (!mesh->brings_floor || mesh->mesh.triangles.cols() == 0) return;
   if (!rests) {
+    obstacle.Complain("mesh", std::string("brings the floor along and moves (valid: `floor: ") +
+                                  (mesh->has_levels ? "levels" : "in_mesh") +
+                                  "` of a mesh without motion)");
+    return;
+  }
+  if (mesh->has_levels) {
+    TakeLevels(obstacle, name, X_WO, floor, mesh);
+    return;
+  }
+  if (!std::isfinite(floor)) {
     obstacle.Complain("mesh",
-                      "brings the floor along and moves (valid: `floor: in_mesh` of a mesh "
-                      "without motion)");
+                      "in_mesh where there is no floor (valid: `floor: levels` of the mesh)");
     return;
   }
   const double tolerance = mesh->floor_tolerance;

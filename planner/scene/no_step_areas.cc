@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "planner/scene/simple_polygon.h"
+#include "wpg/geometry/simple_polygon.h"
 
 namespace halfstep {
 

@@ -6,13 +6,15 @@
 #include <utility>
 
 #include "planner/scene/cloud_fields.h"
+#include "planner/scene/ground_fields.h"
 #include "planner/scene/mesh_fields.h"
 #include "planner/scene/motion_fields.h"
-#include "planner/scene/simple_polygon.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/text.h"
 #include "wpg/files/yaml_fields.h"
 #include "wpg/geometry/rotation.h"
+#include "wpg/geometry/simple_polygon.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -50,6 +52,13 @@ struct NoStepFields {
   Eigen::Matrix2Xd polygon;
 };
 
+bool TakeNameOf(Fields& fields, const std::string& name, const std::string& item,
+                std::map<std::string, std::string>* taken) {
+  const auto [first, is_new] = taken->emplace(name, item);
+  if (!is_new) fields.Complain("name", Quote(name) + " is the name of " + first->second + " too");
+  return is_new;
+}
+
 // Names become parts of paths and CSV cells.
 void DeclareName(Fields& fields, std::string* name, bool required, const std::string& item,
                  std::map<std::string, std::string>* taken) {
@@ -64,8 +73,7 @@ void DeclareName(Fields& fields, std::string* name, bool required, const std::st
     fields.Complain("name", mistake);
   }
   if (taken == nullptr) return;
-  const auto [first, is_new] = taken->emplace(*name, item);
-  if (!is_new) fields.Complain("name", Quote(*name) + " is the name of " + first->second + " too");
+  TakeNameOf(fields, *name, item, taken);
 }
 
 void DeclareShape(Fields& fields, ObstacleFields* obstacle) {
@@ -129,7 +137,7 @@ void CheckReach(Fields& fields, const ObstacleFields& obstacle) {
                             farthest));
 }
 
-// `floor`: its height in W [m].
+// `floor`: its height in W [m]; −∞: there is none.
 void DeclareObstacle(Fields& fields, double floor, ObstacleFields* obstacle) {
   DeclareShape(fields, obstacle);
   fields.Group("pose", {.meaning = "of the shape in the world"}, [&](Fields& pose) {
@@ -150,7 +158,7 @@ void DeclareObstacle(Fields& fields, double floor, ObstacleFields* obstacle) {
   }
   CheckReach(fields, *obstacle);
   const bool rests = obstacle->motion.rests() && obstacle->motion.error == 0.0;
-  TakeFloor(fields, X_WO, floor, rests, &obstacle->mesh);
+  TakeFloor(fields, obstacle->name, X_WO, floor, rests, &obstacle->mesh);
 }
 
 void DeclareNoStep(Fields& fields, NoStepFields* area) {
@@ -184,6 +192,17 @@ double Obstacle::speed() const {
   return by_waypoints + motion.speed;
 }
 
+const Obstacle* Scene::ObstacleAt(int index) const {
+  return index < std::ssize(obstacles) ? &Nth(obstacles, index) : nullptr;
+}
+
+const std::string& Scene::NameOf(int index) const {
+  const Obstacle* obstacle = ObstacleAt(index);
+  return obstacle != nullptr
+             ? obstacle->name
+             : Nth(ground->Solids(), index - static_cast<int>(obstacles.size())).name;
+}
+
 Scene Scene::Emptied() const {
   Scene empty;
   empty.name = name;
@@ -213,18 +232,36 @@ Scene ParseScene(const std::string& yaml_path, const std::string& text) {
   Scene scene;
   std::vector<ObstacleFields> obstacles;
   std::vector<NoStepFields> areas;
+  GroundFields ground;
   std::map<std::string, std::string> obstacle_names, area_names;
   ReadYamlText(
       text, yaml_path, path.parent_path().string(), {},
       [&](Fields& fields) {
         DeclareName(fields, &scene.name, false, "", nullptr);
+        const auto take_name = [&](Fields& item, const std::string& name,
+                                   const std::string& where) {
+          return TakeNameOf(item, name, where, &obstacle_names);
+        };
+        DeclareGround(
+            fields,
+            [&](Fields& item, const std::string& where, std::string* name) {
+              DeclareName(item, name, true, where, &obstacle_names);
+            },
+            take_name, &ground);
         fields.List("obstacles", {.meaning = "bodies in the way"}, &obstacles,
                     [&](Fields& item, ObstacleFields* obstacle) {
                       const auto index = obstacle - obstacles.data();
-                      DeclareName(item, &obstacle->name, true,
-                                  "obstacles[" + std::to_string(index) + "]", &obstacle_names);
-                      DeclareObstacle(item, scene.ground->Floor(), obstacle);
+                      const std::string where = "obstacles[" + std::to_string(index) + "]";
+                      DeclareName(item, &obstacle->name, true, where, &obstacle_names);
+                      DeclareObstacle(item, ground.Floor(), obstacle);
+                      for (LevelSurface& surface : obstacle->mesh.surfaces) {
+                        if (!take_name(item, surface.name, where)) break;
+                        ground.surfaces.push_back(std::move(surface));
+                      }
                     });
+        if (!ground.has_floor && ground.said == 0 && ground.surfaces.empty()) {
+          fields.Complain("floor", "none, and no surfaces (valid: surfaces, or a floor)");
+        }
         fields.List("no_step", {.meaning = "areas of the floor that no sole may touch"}, &areas,
                     [&](Fields& item, NoStepFields* area) {
                       const auto index = area - areas.data();
@@ -239,6 +276,9 @@ Scene ParseScene(const std::string& yaml_path, const std::string& text) {
       kLimits);
   if (scene.name.empty()) scene.name = path.stem().string();
   scene.files = {RecordOf(yaml_path, text)};
+  scene.ground = MakeGround(ground);
+  scene.files.insert(scene.files.end(), ground.files.begin(), ground.files.end());
+  for (const std::string& told : ground.told) scene.warnings.push_back(yaml_path + ": " + told);
   for (ObstacleFields& from : obstacles) {
     if (from.has_mesh) scene.files.push_back(from.mesh.file);
     if (from.cloud.any()) scene.files.push_back(from.cloud.file);
@@ -247,6 +287,7 @@ Scene ParseScene(const std::string& yaml_path, const std::string& text) {
         scene.warnings.push_back(yaml_path + ": obstacle " + from.name + ": " + told);
       }
     }
+    if (from.mesh.has_levels && from.mesh.mesh.triangles.cols() == 0) continue;  // all is level
     scene.obstacles.push_back(
         {from.name, MakeShape(&from), MakePose(from.xyz, from.rpy), std::move(from.motion)});
   }

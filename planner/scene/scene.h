@@ -32,8 +32,7 @@ struct Obstacle {
   bool rests() const { return motion.rests(); }
 };
 
-/// What the robot walks on and among. The ground is no obstacle: the floor and ground margins watch
-/// it.
+/// What the robot walks on and among. The ground is no obstacle, for feet stand on it.
 struct Scene {
   std::string name;                 ///< the file's stem, or "none"
   std::vector<InputFile> files;     ///< the YAML file, and one entry for each reading of a mesh.
@@ -46,8 +45,14 @@ struct Scene {
   /// What of the files was replaced by something larger, left out or is hard to believe, as
   /// "file: …", for the user.
   std::vector<std::string> warnings;
-  /// Not null. Flat at z = 0: no key of a scene file says otherwise yet.
+  /// Not null. Flat at z = 0 unless the file has surfaces (planner/README.md, "Levels").
   std::shared_ptr<const Ground> ground = std::make_shared<const FlatGround>();
+
+  /// The obstacle of an index that counts the obstacles first and then the solids of the ground;
+  /// null: it is a solid, which rests.
+  const Obstacle* ObstacleAt(int index) const;
+  /// The name of the obstacle or of the ground's solid of such an index.
+  const std::string& NameOf(int index) const;
 
   /// Its ground and friction under its name: no obstacles, no areas, nothing of files.
   Scene Emptied() const;

@@ -26,6 +26,7 @@ class BoundingBoxPlanner : public FootstepPlanner {
   BoundingBoxPlanner(const Scene& scene, const BoundingBoxOptions& options)
       : options_(options), world_(scene, options.box) {}
   PlanResult Plan(const PlanRequest& request, std::mt19937_64& random) const override;
+  bool knows_levels() const override { return false; }
 
  private:
   BoundingBoxOptions options_;

@@ -7,9 +7,9 @@
 #include <tuple>
 #include <unordered_map>
 
-#include "planner/scene/simple_polygon.h"
 #include "wpg/check.h"
 #include "wpg/elementary.h"
+#include "wpg/geometry/simple_polygon.h"
 #include "wpg/geometry/support_polygon.h"
 #include "wpg/nth.h"
 
@@ -129,7 +129,8 @@ class GridSearch {
 BoxWorld::BoxWorld(const Scene& scene, const RobotBox& box)
     : scene_(scene),
       box_(box),
-      level_(scene.ground->HeightEverywhere()),
+      level_(scene.ground->OnlyLevel() ? scene.ground->HeightEverywhere()
+                                       : std::numeric_limits<double>::quiet_NaN()),
       world_(scene),
       shape_(MakeBox({box.length, box.width, box.height})) {}
 

@@ -28,12 +28,14 @@ struct BoxGrid {
 /// A box among the obstacles and the no-step areas of a scene, both of which it must not touch.
 class BoxWorld {
  public:
-  /// Borrows the scene. Precondition: a box as above, one level of the ground (std::logic_error).
+  /// Borrows the scene. Precondition: a box as above (std::logic_error).
   BoxWorld(const Scene& scene, const RobotBox& box);
   /// Whether the box, its middle of the feet at X_WM, touches nothing.
   bool IsClear(const Pose2& X_WM) const;
   const RobotBox& box() const { return box_; }  ///< as given
-  double level() const { return level_; }       ///< height on which the box stands [m]
+  /// Height on which the box stands [m]; not a number where the ground has levels, among which it
+  /// finds no path.
+  double level() const { return level_; }
 
  private:
   const Scene& scene_;

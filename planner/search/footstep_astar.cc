@@ -55,10 +55,16 @@ std::vector<int> ClassicSubset(const StepSet& set) {
       return (X_SF.Planar().position() - wanted.position()).norm() +
              kMetresPerRadian * std::fabs(X_SF.yaw - wanted.yaw);
     };
-    const auto nearest =
-        std::min_element(set.placements.begin(), set.placements.end(),
-                         [&off](const Foothold& a, const Foothold& b) { return off(a) < off(b); });
-    subset.push_back(static_cast<int>(nearest - set.placements.begin()));
+    // On levels, for each difference of height: elements of one are side by side.
+    for (auto first = set.placements.begin(); first != set.placements.end();) {
+      const auto last = std::find_if(first, set.placements.end(), [&](const Foothold& X_SF) {
+        return X_SF.height != first->height;
+      });
+      const auto nearest = std::min_element(
+          first, last, [&off](const Foothold& x, const Foothold& y) { return off(x) < off(y); });
+      subset.push_back(static_cast<int>(nearest - set.placements.begin()));
+      first = last;
+    }
   }
   std::sort(subset.begin(), subset.end());
   subset.erase(std::unique(subset.begin(), subset.end()), subset.end());

@@ -48,6 +48,9 @@ struct PlanRequest {
   const StepSet& set;          ///< not empty
   const HalfStepQuery& query;  ///< of the same set
   StepCost cost = {};          ///< what is minimized
+  /// Heights of the ground's levels, ascending, on one of which each sole stands [m]. Empty: all is
+  /// at the height of the start.
+  std::vector<double> levels = {};
   /// Supporting soles' centres stay inside [m]. None: 2 m around the start and the goal.
   std::optional<Eigen::AlignedBox2d> workspace = {};
   /// Whether an up half-step from the start, which is in no set, is free: its support sole stands
@@ -104,6 +107,8 @@ class FootstepPlanner {
   virtual ~FootstepPlanner() = default;
   /// Preconditions (std::logic_error): finite start, valid goal, set not empty.
   virtual PlanResult Plan(const PlanRequest& request, std::mt19937_64& random) const = 0;
+  /// Whether it plans from level to level; if not, all has to be at one height.
+  virtual bool knows_levels() const { return true; }
 };
 
 }  // namespace halfstep

@@ -9,7 +9,8 @@ bool GoalRegion::IsValid() const {
   return std::isfinite(X_WG.x) && std::isfinite(X_WG.y) && std::isfinite(X_WG.yaw) &&
          std::isfinite(radius) && radius >= 0.0 &&
          (!box || (box->allFinite() && box->minCoeff() >= 0.0)) &&
-         (!yaw_tolerance || (std::isfinite(*yaw_tolerance) && *yaw_tolerance >= 0.0));
+         (!yaw_tolerance || (std::isfinite(*yaw_tolerance) && *yaw_tolerance >= 0.0)) &&
+         (!height || std::isfinite(*height));
 }
 
 double GoalRegion::Distance(const Eigen::Vector2d& p_W) const {
@@ -30,12 +31,19 @@ bool GoalRegion::Contains(const Pose2& X_W) const {
 }
 
 bool GoalRegion::ContainsStance(const std::array<Foothold, 2>& feet) const {
-  if (part == GoalPart::kMidFeet) return Contains(MidFeet(feet[0].Planar(), feet[1].Planar()));
-  return (part != GoalPart::kRightFoot && Contains(feet[Index(Side::kLeft)].Planar())) ||
-         (part != GoalPart::kLeftFoot && Contains(feet[Index(Side::kRight)].Planar()));
+  if (part == GoalPart::kMidFeet) {
+    return IsLevel(feet[0]) && IsLevel(feet[1]) &&
+           Contains(MidFeet(feet[0].Planar(), feet[1].Planar()));
+  }
+  const auto holds = [this](const Foothold& X_WF) {
+    return IsLevel(X_WF) && Contains(X_WF.Planar());
+  };
+  return (part != GoalPart::kRightFoot && holds(feet[Index(Side::kLeft)])) ||
+         (part != GoalPart::kLeftFoot && holds(feet[Index(Side::kRight)]));
 }
 
 bool GoalRegion::ContainsLanding(Side side, const Foothold& X_WF, const Foothold& X_WS) const {
+  if (!IsLevel(X_WF) || (part == GoalPart::kMidFeet && !IsLevel(X_WS))) return false;
   switch (part) {
     case GoalPart::kLeftFoot:
       return side == Side::kLeft && Contains(X_WF.Planar());

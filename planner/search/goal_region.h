@@ -21,6 +21,9 @@ struct GoalRegion {
   double radius = 0.1;  ///< of the disc [m] ≥ 0; unused with a box
   std::optional<Eigen::Vector2d> box;        ///< full edge lengths along x and y of G [m] ≥ 0
   std::optional<double> yaw_tolerance = {};  ///< half the range [rad] ≥ 0; none: any yaw
+  /// Height of the level on which the foot, or both feet whose middle counts, shall stand [m];
+  /// none: on any.
+  std::optional<double> height = {};
 
   /// Whether all values are finite and no size is negative.
   bool IsValid() const;
@@ -28,6 +31,8 @@ struct GoalRegion {
   double Distance(const Eigen::Vector2d& p_W) const;
   /// How far a yaw is outside the range [rad], counted modulo 2π: 0 inside or without a range.
   double Turn(double yaw) const;
+  /// Whether a foot stands at the height that is asked for.
+  bool IsLevel(const Foothold& X_WF) const { return !height || X_WF.height == *height; }
   /// Whether a pose of the part that counts is in the region.
   bool Contains(const Pose2& X_W) const;
   /// Whether standing with the soles `feet`, by Index(Side), is a goal.

@@ -17,6 +17,9 @@ class HalfStepQuery {
   /// Whether the up half-step that follows, on the foot that has landed, is free. X_WS is still the
   /// pose of the sole that supported before, as for DownIsFree.
   virtual bool UpIsFree(int i, Side support, const Foothold& X_WS) const = 0;
+  /// Whether the ground bears a sole at X_WF, at that height; DownIsFree asks it of the sole that
+  /// lands. Where it is asked first, what lands on nothing costs little.
+  virtual bool Bears(const Foothold&) const { return true; }
 };
 
 }  // namespace halfstep

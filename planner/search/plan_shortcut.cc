@@ -70,6 +70,7 @@ bool Follow(const Unrolled& path, size_t from, StepState state, StepGraph* graph
     order.clear();
     for (int k = 0; k < graph->size(); ++k) {
       const Foothold& X_WF = Nth(landings, k);
+      if (X_WF.height != path.states[j].X_WS.height) continue;
       if (last && !graph->IsGoal(state, X_WF)) continue;
       if (!last && !graph->workspace().contains(X_WF.Planar().position())) continue;
       order.emplace_back(StateDistance(X_WF.Planar(), path.states[j].X_WS.Planar(), true), k);

@@ -34,14 +34,16 @@ StepGraph::StepGraph(const PlanRequest& request, std::vector<int> elements)
       costs_(Chosen(request.cost.OfElements(request.set), elements_)),
       reach_(request.set, elements_, request.cost.OfElements(request.set)),
       workspace_(request.workspace.value_or(DefaultWorkspace(request))) {
-  HALFSTEP_CHECK(request.start[0].height == request.start[1].height,
+  const bool one_level = request.levels.empty();
+  HALFSTEP_CHECK(!one_level || request.start[0].height == request.start[1].height,
                  "the soles stand at " << request.start[0].height << " m and "
                                        << request.start[1].height << " m");
-  HALFSTEP_CHECK(!request.in_air || request.in_air->X_WS.height == request.start[0].height,
-                 "on one foot at " << request.in_air->X_WS.height << " m");
+  HALFSTEP_CHECK(
+      !one_level || !request.in_air || request.in_air->X_WS.height == request.start[0].height,
+      "on one foot at " << request.in_air->X_WS.height << " m");
   for (Side support : {Side::kLeft, Side::kRight}) {
     for (int i : elements_) {
-      Nth(request.set.placements, i).CheckLevel();
+      if (one_level) Nth(request.set.placements, i).CheckLevel();
       Nth(placements_, Index(support)).push_back(request.set.Placement(i, support));
     }
   }
@@ -63,8 +65,19 @@ std::vector<StepState> StepGraph::FreeStarts() const {
   return starts;
 }
 
+double StepGraph::OnLevel(double height) const {
+  constexpr double kSame = 1e-8;  // [m] heights of one level differ by less, by different sums
+  const std::vector<double>& levels = request_.levels;
+  const auto above = std::ranges::lower_bound(levels, height);
+  if (above != levels.end() && *above - height <= kSame) return *above;
+  if (above != levels.begin() && height - *(above - 1) <= kSame) return *(above - 1);
+  return height;
+}
+
 Foothold StepGraph::Landing(const StepState& from, int k) const {
-  return from.X_WS * Nth(Nth(placements_, Index(from.support)), k);
+  Foothold X_WF = from.X_WS * Nth(Nth(placements_, Index(from.support)), k);
+  X_WF.height = OnLevel(X_WF.height);
+  return X_WF;
 }
 
 void StepGraph::Landings(const StepState& from, std::vector<Foothold>* X_WF) const {
@@ -73,7 +86,7 @@ void StepGraph::Landings(const StepState& from, std::vector<Foothold>* X_WF) con
   for (const Foothold& X_SF : Nth(placements_, Index(from.support))) {
     X_WF->push_back({{from.X_WS.x + c * X_SF.x - s * X_SF.y, from.X_WS.y + s * X_SF.x + c * X_SF.y,
                       from.X_WS.yaw + X_SF.yaw},
-                     from.X_WS.height + X_SF.height});
+                     OnLevel(from.X_WS.height + X_SF.height)});
   }
 }
 

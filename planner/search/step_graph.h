@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -15,8 +16,8 @@ namespace halfstep {
 /// k is always the place of an element in elements().
 class StepGraph {
  public:
-  /// Uses only `elements` of the set. The request is borrowed. Precondition: all is at one height,
-  /// because states are told apart by x, y and yaw (std::logic_error).
+  /// Uses only `elements` of the set. The request is borrowed. Precondition: where the request has
+  /// no levels, all is at one height (std::logic_error).
   StepGraph(const PlanRequest& request, std::vector<int> elements);
 
   /// Indices into the set; k counts in this list.
@@ -32,7 +33,8 @@ class StepGraph {
   /// the air already: that state.
   std::vector<StepState> FreeStarts() const;
 
-  /// Where element k lands from a state, X_WF; the state after its up half-step.
+  /// Where element k lands from a state, X_WF, at the exact height of the level where there is one;
+  /// the state after its up half-step.
   Foothold Landing(const StepState& from, int k) const;
   /// The state after that landing and its up half-step.
   StepState After(const StepState& from, int k) const {
@@ -61,7 +63,17 @@ class StepGraph {
   bool IsForbidden(const StepState& from, int k) const;  ///< whether Forbid() was called so
   std::int64_t queries() const { return queries_; }      ///< of half-steps, so far
 
+  /// Whether there is a level at that height [m], somewhere; true where all is at one height.
+  bool IsLevel(double height) const {
+    return request_.levels.empty() || std::ranges::binary_search(request_.levels, height);
+  }
+  /// Whether the ground bears a sole there (HalfStepQuery::Bears).
+  bool Bears(const Foothold& X_WF) const { return request_.query.Bears(X_WF); }
+
  private:
+  // A height, or that of the level that it is of.
+  double OnLevel(double height) const;
+
   struct Edge {
     StepState from;
     int k;

@@ -65,6 +65,7 @@ class WeightedSearch {
   // Of the edge from a node that lands at X_WF.
   Promise Promises(const Node& node, int k, const Foothold& X_WF) const {
     const double cost = node.cost + graph_.cost(k);
+    if (!graph_.IsLevel(X_WF.height)) return {0.0, 0.0, false};
     if (graph_.IsGoal(node.state, X_WF)) return {cost, 0.0, cost < monitor_.best_cost()};
     const StepState after{X_WF, Opposite(node.state.support)};
     if (!graph_.workspace().contains(X_WF.Planar().position())) return {0.0, 0.0, false};

@@ -5,6 +5,7 @@
 
 #include "wpg/geometry/foothold.h"
 #include "wpg/geometry/side.h"
+#include "wpg/ground/ground.h"
 #include "wpg/motion/half_step.h"
 
 namespace halfstep {
@@ -18,14 +19,16 @@ struct StepGrid {
   std::vector<double> yaws = {-0.5, -0.25, 0.0, 0.25, 0.5};  ///< [rad]
 };
 
-/// The discrete half-steps that planners choose from: from level to level at the same height so
-/// far. An element i is one place X_SF of a foot
-/// beside the other. It serves two half-steps: *down*, where the support foot is S and the swing
-/// foot lands on X_SF; and *up*, where the foot F that has landed supports and the other one leaves
-/// its place X_FS = X_SF⁻¹ for the via point.
+/// The discrete half-steps that planners choose from. An element i is one place X_SF of a foot
+/// beside the other, at its height or, on levels, higher or lower. It serves two half-steps:
+/// *down*, where the support foot is S and the swing foot lands on X_SF; and *up*, where the foot F
+/// that has landed supports and the other one leaves its place X_FS = X_SF⁻¹ for the via point.
 struct StepSet {
   HalfStep prototype;                ///< duration, via point and shape of all of them
   std::vector<Foothold> placements;  ///< X_SF of each element, seen from a left support
+  /// Whether it is for ground with solids, which feet touch: then its swept volumes tell the feet
+  /// from the rest.
+  bool on_levels = false;
 
   int size() const { return static_cast<int>(placements.size()); }  ///< number of elements
   /// X_SF of element i when `support` supports.
@@ -36,11 +39,25 @@ struct StepSet {
   HalfStep Up(int i, Side support) const;
 };
 
+/// Whether planning on a ground needs a set on levels: there are several, or borders, or solids.
+bool HasLevels(const Ground& ground);
+
+/// The differences of height between levels at these heights [m] by which a foot may be tried to
+/// land higher (> 0) or lower: 0 first, then ascending, none that is more than `most` ≥ 0 [m] or
+/// differs by less than 1e-9 m from another.
+std::vector<double> RisesBetween(const std::vector<double>& heights, double most);
+
 /// Every place of the grid for which `keeps` accepts both the down and the up half-step of a left
 /// support. `keeps` shall prove robot-only margins for all t, of the mirrored half-step as well
 /// where the robot's legs are not mirror images. `progress` (may be empty) is called
 /// with the fraction done, and stops the search by returning false; then the set is empty.
 StepSet MakeStepSet(const StepGrid& grid, const HalfStep& prototype,
+                    const std::function<bool(const HalfStep&)>& keeps,
+                    const std::function<bool(double)>& progress = {});
+/// The same for ground of several levels: of each of the `rises` [m], in their order, every place
+/// of the grid at that height. What would land at the via point's height or above is not asked.
+StepSet MakeStepSet(const StepGrid& grid, const HalfStep& prototype,
+                    const std::vector<double>& rises,
                     const std::function<bool(const HalfStep&)>& keeps,
                     const std::function<bool(double)>& progress = {});
 

@@ -28,7 +28,7 @@ StepTree::StepTree(const TreeTarget& target, const PoseCells& cells, StepGraph* 
 
 bool StepTree::Hits(const StepState& from, const Foothold& X_WF) const {
   if (!target_.state) return graph_.IsGoal(from, X_WF);
-  return target_.state->support != from.support &&
+  return target_.state->support != from.support && target_.state->X_WS.height == X_WF.height &&
          StateDistance(X_WF.Planar(), target_.state->X_WS.Planar(), true) <= target_.near;
 }
 
@@ -57,6 +57,7 @@ StepTree::Edge StepTree::Try(int index, int k, const Foothold& X_WF) {
   if (Nth(node.tried, k)) return Edge::kUseless;
   Nth(node.tried, k) = true;
   --node.untried;
+  if (!graph_.Bears(X_WF)) return Edge::kUseless;
   const StepState from = node.state, after{X_WF, Opposite(from.support)};
   const double cost = node.cost + graph_.cost(k);
   if (Hits(from, X_WF)) {

@@ -192,17 +192,20 @@ bool SweptVolumeBaker::AddTwin(const Placement& placement, const Placement& twin
   return true;
 }
 
-std::optional<BoxTree> SweptVolumeBaker::Bake(const HalfStep& half_step,
-                                              const MotionModel& model) const {
-  half_step.X_SF.CheckLevel();
-  const auto placements = Cover(half_step, model), mirrored = Cover(half_step.Mirrored(), model);
-  if (!placements || !mirrored) return std::nullopt;
+std::optional<SweptVolumeBaker::Covered> SweptVolumeBaker::CoverBoth(
+    const HalfStep& half_step, const MotionModel& model) const {
+  auto own = Cover(half_step, model), mirrored = Cover(half_step.Mirrored(), model);
+  if (!own || !mirrored) return std::nullopt;
+  return Covered{*std::move(own), *std::move(mirrored)};
+}
+
+BoxTree SweptVolumeBaker::TreeOf(const Covered& covered, double cell) const {
   std::map<std::pair<size_t, double>, const Placement*> left;  // mirrored ones, by body and time
-  for (const Placement& placement : *mirrored) {
+  for (const Placement& placement : covered.mirrored) {
     left[{placement.body, placement.time}] = &placement;
   }
   std::vector<HalfSpaces> regions;
-  for (const Placement& placement : *placements) {
+  for (const Placement& placement : covered.own) {
     regions.push_back(Inflated(placement));
     const std::optional<Twin>& twin = twins_[placement.body];
     if (!twin) continue;
@@ -217,9 +220,43 @@ std::optional<BoxTree> SweptVolumeBaker::Bake(const HalfStep& half_step,
     lower = lower.cwiseMin(region.lower);
     upper = upper.cwiseMax(region.upper);
   }
-  VoxelGrid grid(lower, upper, options_.cell);
+  VoxelGrid grid(lower, upper, cell);
   for (const HalfSpaces& region : regions) grid.Fill(region);
   return BoxTree::Build(grid);
+}
+
+std::optional<BoxTree> SweptVolumeBaker::Bake(const HalfStep& half_step,
+                                              const MotionModel& model) const {
+  const auto covered = CoverBoth(half_step, model);
+  if (!covered) return std::nullopt;
+  return TreeOf(*covered, options_.cell);
+}
+
+std::optional<SweptVolumeBaker::Parts> SweptVolumeBaker::BakeParts(const HalfStep& half_step,
+                                                                   const MotionModel& model) const {
+  const auto covered = CoverBoth(half_step, model);
+  if (!covered) return std::nullopt;
+  const auto part = [&](double cell, const auto& holds) {
+    Covered some;
+    for (const Placement& placement : covered->own) {
+      if (holds(robot_.bodies[placement.body], half_step.swing())) some.own.push_back(placement);
+    }
+    for (const Placement& placement : covered->mirrored) {
+      if (holds(robot_.bodies[placement.body], half_step.support)) {
+        some.mirrored.push_back(placement);
+      }
+    }
+    return TreeOf(some, cell);
+  };
+  const auto on_foot = [](const RobotBody& body) { return body.link == 5; };
+  const double foot = FootCell(options_.cell);
+  return Parts{
+      .rest = part(options_.cell, [&](const RobotBody& body, Side) { return !on_foot(body); }),
+      .swing = part(foot, [&](const RobotBody& body,
+                              Side swing) { return on_foot(body) && body.leg == Index(swing); }),
+      .stand = part(foot, [&](const RobotBody& body, Side swing) {
+        return on_foot(body) && body.leg != Index(swing);
+      })};
 }
 
 }  // namespace halfstep

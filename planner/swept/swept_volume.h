@@ -24,6 +24,9 @@ struct SweptVolumeOptions {
   friend bool operator==(const SweptVolumeOptions&, const SweptVolumeOptions&) = default;
 };
 
+/// Edge of the cells of a foot's volume where it has one of its own [m].
+constexpr double FootCell(double cell) { return 0.5 * cell; }
+
 /// Bakes swept volumes of one robot. Const and thread-safe.
 class SweptVolumeBaker {
  public:
@@ -50,9 +53,26 @@ class SweptVolumeBaker {
   /// "Swept volumes".
   std::optional<BoxTree> Bake(const HalfStep& half_step, const MotionModel& model) const;
 
+  /// The volumes of a half-step on levels.
+  struct Parts {
+    BoxTree rest;   ///< of all bodies that are on no foot
+    BoxTree swing;  ///< of the foot that swings
+    BoxTree stand;  ///< of the foot that stands
+  };
+  /// The same as Bake for each part; those of the feet in finer cells (FootCell), for feet stand
+  /// near to what they must not touch.
+  std::optional<Parts> BakeParts(const HalfStep& half_step, const MotionModel& model) const;
+
   const SweptVolumeOptions& options() const { return options_; }  ///< as given
 
  private:
+  // The placements of a half-step and of the mirrored one.
+  struct Covered {
+    std::vector<Placement> own, mirrored;
+  };
+  std::optional<Covered> CoverBoth(const HalfStep& half_step, const MotionModel& model) const;
+  BoxTree TreeOf(const Covered& covered, double cell) const;
+
   struct Outline {
     Eigen::Matrix3Xd normals;  // in the body's link frame, unit
     Eigen::VectorXd offsets;   // of the body's supporting planes [m]

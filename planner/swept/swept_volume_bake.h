@@ -9,11 +9,33 @@
 
 namespace halfstep {
 
-/// The two volumes of one element of a set.
+/// The volumes of one element of a set.
 struct ElementVolumes {
   /// Of the down and of the up half-step, on a left support; none: its motion has no bound.
   std::optional<BoxTree> down, up;
+  /// Of a set on levels, as SweptVolumes has them.
+  std::optional<BoxTree> down_swing = {}, up_swing = {};
+  std::optional<BoxTree> down_stand = {}, up_stand = {};  ///< see down_swing
 };
+
+/// Calls visit(volume) for each volume of an element in the order of files: two, or of a set on
+/// levels six.
+template <typename Element, typename Visit>
+void ForEachVolume(Element& element, bool on_levels, const Visit& visit) {
+  visit(element.down);
+  visit(element.up);
+  if (!on_levels) return;
+  visit(element.down_swing);
+  visit(element.up_swing);
+  visit(element.down_stand);
+  visit(element.up_stand);
+}
+/// How many that are.
+constexpr size_t VolumesOfElement(const StepSet& set) { return set.on_levels ? 6 : 2; }
+/// Puts an element's volumes where they belong. Precondition: `volumes` has room for all elements.
+void PutElement(int i, ElementVolumes element, SweptVolumes* volumes);
+/// Makes room for the volumes of all elements of volumes->set.
+void MakeRoom(SweptVolumes* volumes);
 
 /// How the work of a bake is done; none of it changes the result.
 struct BakeHooks {
@@ -28,7 +50,12 @@ struct BakeHooks {
   std::function<void(int, const ElementVolumes&)> keep = {};  ///< see recall
 };
 
-/// Bakes all elements of a set, or none when stopped. An exception of a hook ends the bake and is
+/// A robot with a plate more under each foot: its outline from above (FootOutline) on the sole's
+/// plane. For volumes on levels, where the family `floor` keeps that outline off solids.
+RobotModel WithFootPlates(RobotModel robot);
+
+/// Bakes all elements of a set, or none when stopped. On levels the volumes are those of the robot
+/// WithFootPlates. An exception of a hook ends the bake and is
 /// rethrown.
 std::optional<SweptVolumes> BakeSweptVolumes(const RobotModel& robot, const MotionModel& model,
                                              const StepSet& set, const SweptVolumeOptions& options,

@@ -83,8 +83,12 @@ std::string SweptVolumeProvenance(const RobotModel& robot, const MotionModel& mo
                                   const StepSet& set, const SweptVolumeOptions& options) {
   std::string placements;
   for (const Foothold& X_SF : set.placements) {
-    X_SF.CheckLevel();
-    Append(Eigen::Vector3d(X_SF.x, X_SF.y, X_SF.yaw), &placements);
+    if (set.on_levels) {
+      Append(Eigen::Vector4d(X_SF.x, X_SF.y, X_SF.height, X_SF.yaw), &placements);
+    } else {
+      X_SF.CheckLevel();
+      Append(Eigen::Vector3d(X_SF.x, X_SF.y, X_SF.yaw), &placements);
+    }
   }
   std::string text = "swept volumes, format " + std::to_string(kFormat) + "\n";
   const auto line = [&](std::string_view key, const std::string& value) {
@@ -113,6 +117,7 @@ std::string SweptVolumeProvenance(const RobotModel& robot, const MotionModel& mo
   line_unless("rise_end", rise_end, 1.0);
   line_unless("crouch", crouch, 0.0);
   line_unless("via_along", set.prototype.via_along, 0.0);
+  if (set.on_levels) line("on_levels", "feet apart, with plates, in half the cell");
   line("elements", std::to_string(set.size()));
   line("placements", Sha256(placements));
   line("cell", Exactly(options.cell));
@@ -128,22 +133,41 @@ std::string PartPath(const std::string& cache_path, int element) {
 
 namespace {
 
+// The volumes of an element that begin at `first`.
+ElementVolumes Taken(std::optional<BoxTree>* first, const StepSet& set) {
+  ElementVolumes element;
+  ForEachVolume(element, set.on_levels,
+                [&first](std::optional<BoxTree>& volume) { volume = std::move(*first++); });
+  for (auto* foot :
+       {&element.down_swing, &element.up_swing, &element.down_stand, &element.up_stand}) {
+    if (*foot) (*foot)->cell = FootCell((*foot)->cell);
+  }
+  return element;
+}
+
+std::string BytesOf(const ElementVolumes& element, const StepSet& set) {
+  std::string bytes;
+  ForEachVolume(element, set.on_levels,
+                [&bytes](const std::optional<BoxTree>& volume) { bytes += VolumeBytes(volume); });
+  return bytes;
+}
+
 // What a whole file holds: `result->volumes`, or why it was refused.
 void ReadVolumes(const std::string& provenance, const StepSet& set, double cell,
                  CachedVolumes* result) {
   const CheckedFile file = ReadCheckedFile(result->path, provenance);
   result->refused = file.refused;
   if (!file.body) return;
-  const size_t size = set.placements.size();
-  auto volumes = ParseVolumes(*file.body, 2 * size, cell);
+  const size_t each = VolumesOfElement(set);
+  auto volumes = ParseVolumes(*file.body, each * set.placements.size(), cell);
   if (!volumes) {
     result->refused = result->path + ": refused: its volumes make no sense";
     return;
   }
   result->volumes = {.set = set, .down = {}, .up = {}};
-  for (size_t i = 0; i < size; ++i) {
-    result->volumes->down.push_back(std::move((*volumes)[2 * i]));
-    result->volumes->up.push_back(std::move((*volumes)[2 * i + 1]));
+  MakeRoom(&*result->volumes);
+  for (int i = 0; i < set.size(); ++i) {
+    PutElement(i, Taken(&(*volumes)[each * static_cast<size_t>(i)], set), &*result->volumes);
   }
 }
 
@@ -185,21 +209,20 @@ CachedVolumes LoadOrBakeSweptVolumes(const RobotModel& robot, const MotionModel&
   hooks.recall = [&](int i) -> std::optional<ElementVolumes> {
     const CheckedFile part = ReadCheckedFile(PartPath(result.path, i), PartHeader(provenance, i));
     if (!part.body) return std::nullopt;
-    auto volumes = ParseVolumes(*part.body, 2, options.cell);
+    auto volumes = ParseVolumes(*part.body, VolumesOfElement(set), options.cell);
     if (!volumes) return std::nullopt;
-    return ElementVolumes{std::move((*volumes)[0]), std::move((*volumes)[1])};
+    return Taken(volumes->data(), set);
   };
   hooks.keep = [&](int i, const ElementVolumes& element) {
-    try_to_write(PartPath(result.path, i), PartHeader(provenance, i),
-                 VolumeBytes(element.down) + VolumeBytes(element.up));
+    try_to_write(PartPath(result.path, i), PartHeader(provenance, i), BytesOf(element, set));
   };
   result.volumes = BakeSweptVolumes(robot, model, set, options, hooks);
   if (!result.volumes) return result;
   result.baked = true;
   std::string body;
   for (size_t i = 0; i < result.volumes->down.size(); ++i) {
-    body += VolumeBytes(result.volumes->down[i]);
-    body += VolumeBytes(result.volumes->up[i]);
+    ForEachVolume(*result.volumes, set.on_levels,
+                  [&](const SweptVolumes::Volumes& all) { body += VolumeBytes(all[i]); });
   }
   // Another bake may have removed the parts' folder under us; only the whole file matters.
   result.not_kept.clear();

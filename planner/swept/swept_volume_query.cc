@@ -4,7 +4,9 @@
 #include <bit>
 #include <cmath>
 
+#include "planner/scene/solid_body.h"
 #include "planner/swept/four_floats.h"
+#include "planner/swept/swept_volume_bake.h"
 #include "wpg/check.h"
 #include "wpg/elementary.h"
 #include "wpg/nth.h"
@@ -15,21 +17,36 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
+// Tops this little above a sole are at it: the same level by another sum [m].
+constexpr double kSameLevel = 1e-8;
+
 }  // namespace
 
 SweptVolumeQuery::SweptVolumeQuery(const SweptVolumes& volumes,
                                    const Eigen::Matrix2Xd& sole_outline, const Scene& scene,
-                                   double no_step, double until)
+                                   double no_step, double until, double foothold)
     : volumes_(volumes),
       down_bounds_(BoundsOf(volumes.down)),
       up_bounds_(BoundsOf(volumes.up)),
-      level_(scene.ground->HeightEverywhere()),
+      down_swing_bounds_(BoundsOf(volumes.down_swing)),
+      up_swing_bounds_(BoundsOf(volumes.up_swing)),
+      down_stand_bounds_(BoundsOf(volumes.down_stand)),
+      up_stand_bounds_(BoundsOf(volumes.up_stand)),
+      ground_(scene.ground),
+      levels_(*scene.ground),
+      sole_outline_(sole_outline),
+      foothold_(foothold),
       areas_(scene, sole_outline),
       no_step_(no_step) {
   const size_t size = volumes.set.placements.size();
-  HALFSTEP_CHECK(volumes.down.size() == size && volumes.up.size() == size,
-                 volumes.down.size() << " and " << volumes.up.size() << " volumes of " << size);
-  for (const Foothold& X_SF : volumes.set.placements) X_SF.CheckLevel();
+  ForEachVolume(volumes, volumes.set.on_levels, [size](const SweptVolumes::Volumes& all) {
+    HALFSTEP_CHECK(all.size() == size, all.size() << " volumes of " << size);
+  });
+  if (!volumes.set.on_levels) {
+    HALFSTEP_CHECK(ground_->Solids().empty(), ground_->Solids().size() << " solids");
+    level_ = ground_->HeightEverywhere();
+    for (const Foothold& X_SF : volumes.set.placements) X_SF.CheckLevel();
+  }
   CheckPlaces(scene, until);
   std::vector<ObstaclePlace> all;
   for (const Obstacle& obstacle : scene.obstacles) {
@@ -40,6 +57,12 @@ SweptVolumeQuery::SweptVolumeQuery(const SweptVolumes& volumes,
       places_.push_back(prepared);
       places_.back().extra += place.extra;
     }
+  }
+  for (const GroundSolid& solid : ground_->Solids()) {
+    const Obstacle body = BodyOf(solid);
+    all.push_back({.X_WO = body.X_WO});
+    places_.push_back(Prepare(body));
+    places_.back().top = solid.top;
   }
   std::vector<Upright> cylinders;
   for (int i = 0; i < std::ssize(all); ++i) cylinders.push_back(Move(i, Nth(all, i).X_WO));
@@ -74,7 +97,7 @@ bool SweptVolumeQuery::MeetsObstacle(const BoxTree& tree, const Placed& placed,
 
 bool SweptVolumeQuery::IsFree(const Placed& placed, double extra) const {
   HALFSTEP_CHECK(placed.X_WS.AllFinite(), "the sole's pose is not finite");
-  if (!placed.volume || placed.X_WS.height != level_) return false;
+  if (!placed.volume || (level_ && placed.X_WS.height != *level_)) return false;
   __builtin_prefetch(placed.bounds.root);
   __builtin_prefetch(&*placed.volume);
   if (tree_.nodes.empty()) return true;
@@ -133,22 +156,50 @@ bool SweptVolumeQuery::MeetsLeaf(const Placed& placed, const BoundsTree::Node& l
     for (; near != 0; near &= near - 1) {
       const size_t k = static_cast<size_t>(std::countr_zero(static_cast<unsigned>(near)));
       const Prepared& place = Nth(places_, place_at_[4 * block + k]);
+      if (place.top <= placed.above) continue;
       if (MeetsObstacle(*placed.volume, placed, place, extra + place.extra)) return true;
     }
   }
   return false;
 }
 
-SweptVolumeQuery::Placed SweptVolumeQuery::Down(int i, Side support, const Foothold& X_WS) const {
+SweptVolumeQuery::PlacedParts SweptVolumeQuery::Down(int i, Side support,
+                                                     const Foothold& X_WS) const {
   const auto [s, c] = SinCos(X_WS.yaw);
-  return {Nth(volumes_.down, i), Nth(down_bounds_, i), support == Side::kRight, X_WS, c, s};
+  const bool mirrored = support == Side::kRight;
+  PlacedParts parts{{Nth(volumes_.down, i), Nth(down_bounds_, i), mirrored, X_WS, c, s}};
+  if (level_) return parts;
+  const double landing = X_WS.height + Nth(volumes_.set.placements, i).height;
+  parts.swing.emplace(Placed{Nth(volumes_.down_swing, i), Nth(down_swing_bounds_, i), mirrored,
+                             X_WS, c, s, landing + kSameLevel});
+  parts.stand.emplace(Placed{Nth(volumes_.down_stand, i), Nth(down_stand_bounds_, i), mirrored,
+                             X_WS, c, s, X_WS.height + kSameLevel});
+  return parts;
 }
 
-SweptVolumeQuery::Placed SweptVolumeQuery::Up(int i, Side support, const Foothold& X_WS) const {
+SweptVolumeQuery::PlacedParts SweptVolumeQuery::Up(int i, Side support,
+                                                   const Foothold& X_WS) const {
   // The foot that has landed supports.
   const Foothold X_WF = X_WS * volumes_.set.Placement(i, support);
   const auto [s, c] = SinCos(X_WF.yaw);
-  return {Nth(volumes_.up, i), Nth(up_bounds_, i), support == Side::kLeft, X_WF, c, s};
+  const bool mirrored = support == Side::kLeft;
+  PlacedParts parts{{Nth(volumes_.up, i), Nth(up_bounds_, i), mirrored, X_WF, c, s}};
+  if (level_) return parts;
+  parts.swing.emplace(Placed{Nth(volumes_.up_swing, i), Nth(up_swing_bounds_, i), mirrored, X_WF, c,
+                             s, X_WS.height + kSameLevel});
+  parts.stand.emplace(Placed{Nth(volumes_.up_stand, i), Nth(up_stand_bounds_, i), mirrored, X_WF, c,
+                             s, X_WF.height + kSameLevel});
+  return parts;
+}
+
+bool SweptVolumeQuery::Bears(const Foothold& X_WF) const {
+  if (level_) return X_WF.height == *level_;
+  if (levels_.empty()) return X_WF.height == ground_->HeightEverywhere();
+  const int level = levels_.LevelAt(X_WF.height);
+  if (level < 0) return false;
+  return foothold_ > 0.0
+             ? levels_.NearestTo(sole_outline_, X_WF.Planar(), level).distance >= foothold_
+             : levels_.Bears(sole_outline_, X_WF.Planar(), level);
 }
 
 std::vector<SweptVolumeQuery::Bounds> SweptVolumeQuery::BoundsOf(
@@ -169,6 +220,7 @@ std::vector<SweptVolumeQuery::Bounds> SweptVolumeQuery::BoundsOf(
 }
 
 bool SweptVolumeQuery::DownIsFree(int i, Side support, const Foothold& X_WS) const {
+  if (!level_ && !Bears(X_WS * volumes_.set.Placement(i, support))) return false;
   if (!IsFree(Down(i, support, X_WS), 0.0)) return false;
   return areas_.empty() ||
          areas_.Clears((X_WS * volumes_.set.Placement(i, support)).Planar(), no_step_);
@@ -178,7 +230,7 @@ bool SweptVolumeQuery::UpIsFree(int i, Side support, const Foothold& X_WS) const
   return IsFree(Up(i, support, X_WS), 0.0);
 }
 
-double SweptVolumeQuery::Clearance(const Placed& placed, double cap) const {
+double SweptVolumeQuery::Clearance(const PlacedParts& placed, double cap) const {
   constexpr double kResolution = 1e-3;  // [m]
   if (!IsFree(placed, 0.0)) return 0.0;
   if (IsFree(placed, cap)) return cap;

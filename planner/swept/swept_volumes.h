@@ -12,9 +12,15 @@ namespace halfstep {
 /// on a right one their mirror images.
 /// A half-step whose motion has no bound has no volume and is never free.
 struct SweptVolumes {
-  StepSet set;                               ///< whose half-steps they are of
-  std::vector<std::optional<BoxTree>> down;  ///< of set.Down(i, Side::kLeft)
-  std::vector<std::optional<BoxTree>> up;    ///< of set.Up(i, Side::kRight), on a left support
+  using Volumes = std::vector<std::optional<BoxTree>>;  ///< by element
+
+  StepSet set;   ///< whose half-steps they are of
+  Volumes down;  ///< of set.Down(i, Side::kLeft)
+  Volumes up;    ///< of set.Up(i, Side::kRight), on a left support
+  /// Where set.on_levels, those above are of all bodies but the feet, and these of the foot that
+  /// swings and of the one that stands; else they are empty.
+  Volumes down_swing = {}, up_swing = {};
+  Volumes down_stand = {}, up_stand = {};  ///< see down_swing
 };
 
 }  // namespace halfstep

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "planner/collision/separation.h"
+#include "smoothing/margins/body_heights.h"
 
 namespace halfstep {
 namespace {
@@ -55,11 +56,17 @@ double BodyClearances::QuickBound(size_t pair, const Scratch& scratch) const {
   return std::max(spheres, quick.legs * (scratch.lateral[quick.a] - scratch.lateral[quick.b]));
 }
 
+double BodyClearances::Above(size_t b, const Posture& posture, double sinks) const {
+  const RobotBody& body = robot_.bodies[b];
+  if (!has_solids() || !IsOnFoot(body)) return CollisionWorld::kAllSolids;
+  return Nth(posture.X_WSole, body.leg).translation().z() - sinks + kSoleRounding;
+}
+
 bool BodyClearances::BodyClears(size_t body, const Posture& posture, double t, double clearance,
-                                Scratch* scratch, double half_width) const {
+                                Scratch* scratch, double half_width, double sinks) const {
   ++scratch->queries;
   return world_.Clears(shapes_[body], posture.OfBody(robot_.bodies[body]), t, clearance,
-                       &scratch->bodies[body], half_width);
+                       &scratch->bodies[body], half_width, Above(body, posture, sinks));
 }
 
 bool BodyClearances::Separates(size_t pair, const Posture& posture, double clearance,
@@ -73,11 +80,11 @@ bool BodyClearances::Separates(size_t pair, const Posture& posture, double clear
 }
 
 CollisionWorld::Nearest BodyClearances::NearestTo(size_t body, const Posture& posture, double t,
-                                                  double cap, Scratch* scratch,
-                                                  double half_width) const {
+                                                  double cap, Scratch* scratch, double half_width,
+                                                  double sinks) const {
   ++scratch->queries;
   return world_.FindNearest(shapes_[body], posture.OfBody(robot_.bodies[body]), t,
-                            std::max(cap, 1e-9), half_width);
+                            std::max(cap, 1e-9), half_width, Above(body, posture, sinks));
 }
 
 Separation BodyClearances::SeparationOf(size_t pair, const Posture& posture,
@@ -90,8 +97,8 @@ Separation BodyClearances::SeparationOf(size_t pair, const Posture& posture,
 }
 
 Margin BodyClearances::OfBody(size_t body, const Posture& posture, double t, double cap,
-                              Scratch* scratch, double half_width) const {
-  const auto nearest = NearestTo(body, posture, t, cap, scratch, half_width);
+                              Scratch* scratch, double half_width, double sinks) const {
+  const auto nearest = NearestTo(body, posture, t, cap, scratch, half_width, sinks);
   Margin margin{
       .family = MarginFamily::kClearance, .value = cap, .subject = static_cast<int>(body)};
   // Within a half-width, an obstacle that is beyond the cap now may be the one that matters.

@@ -13,8 +13,9 @@
 namespace halfstep {
 
 /// Distances of a robot's bodies, in one posture at a time t of the walk [s], to a scene's
-/// obstacles, less the uncertainty of these at t, and to each other. Const; scratch is the
-/// caller's.
+/// obstacles, less the uncertainty of these at t, to the solids of its ground, and to each other.
+/// A body on a foot does not count solids whose top is at or below its sole (within
+/// kSoleRounding): the sole's plane lies between them. Const; scratch is the caller's.
 class BodyClearances {
  public:
   /// What queries remember, such as separating directions of earlier postures. Use one for each
@@ -35,6 +36,7 @@ class BodyClearances {
   size_t num_bodies() const { return shapes_.size(); }  ///< those of the robot
   /// The margin of an obstacle changes at no more than this speed [m/s] (Obstacle::speed).
   double obstacle_speed(int obstacle) const { return world_.speed(obstacle); }
+  bool has_solids() const { return world_.has_solids(); }  ///< whether the ground has any
   /// Pairs of the robot's own bodies that are watched.
   size_t num_pairs() const { return robot_.self_pairs.size(); }
 
@@ -43,25 +45,27 @@ class BodyClearances {
   void Place(const Posture& posture, Scratch* scratch) const;
 
   /// Whether a body, held still, keeps `clearance` [m] from every obstacle at all times of [t −
-  /// half_width, t + half_width]; whether the bodies of a pair keep it from each other.
+  /// half_width, t + half_width], and from the solids that count for a sole that is lower by up to
+  /// `sinks` ≥ 0 [m].
   bool BodyClears(size_t body, const Posture& posture, double t, double clearance, Scratch* scratch,
-                  double half_width = 0.0) const;
+                  double half_width = 0.0, double sinks = 0.0) const;
   /// Whether the bodies of a pair keep `clearance` [m].
   bool PairClears(size_t pair, const Posture& posture, double clearance, Scratch* scratch) const {
     return QuickClears(pair, clearance, *scratch) || Separates(pair, posture, clearance, scratch);
   }
   /// The clearance of one body, and that of one pair; `cap` [m] when nothing is nearer. With a
   /// `half_width` [s], that of the obstacle whose margin may be the least within it
-  /// (CollisionWorld::FindNearest).
+  /// (CollisionWorld::FindNearest). `sinks` as for BodyClears.
   Margin OfBody(size_t body, const Posture& posture, double t, double cap, Scratch* scratch,
-                double half_width = 0.0) const;
+                double half_width = 0.0, double sinks = 0.0) const;
   /// The clearance of one pair of bodies, as OfBody.
   Margin OfPair(size_t pair, const Posture& posture, double cap, Scratch* scratch) const;
 
   /// The same with witness points and normals, which derivatives need. NearestTo looks for the
   /// nearest obstacle within `cap` [m]; in SeparationOf, `a` is the first body of the pair.
   CollisionWorld::Nearest NearestTo(size_t body, const Posture& posture, double t, double cap,
-                                    Scratch* scratch, double half_width = 0.0) const;
+                                    Scratch* scratch, double half_width = 0.0,
+                                    double sinks = 0.0) const;
   /// How the bodies of a pair lie to each other; `a` is the first of them.
   Separation SeparationOf(size_t pair, const Posture& posture, Scratch* scratch) const;
 
@@ -79,6 +83,8 @@ class BodyClearances {
   Margin NearestPair(const Posture& posture, double cap, Scratch* scratch) const;
 
  private:
+  // Up to here solids do not count for a body [m].
+  double Above(size_t body, const Posture& posture, double sinks) const;
   // A lower bound of the distance of a pair, from Place's numbers alone [m]; whether it tells that
   // a pair keeps a clearance [m].
   double QuickBound(size_t pair, const Scratch& scratch) const;

@@ -10,9 +10,12 @@ namespace {
 
 // Distance from a body of the robot to the obstacles where they are said to be at that time, less
 // how far from there they may be, and less how far the body may be from its place in a tube
-// [m]; at most the clearance cap; −∞ when a leg does not reach.
+// [m]; at most the clearance cap; −∞ when a leg does not reach. The solids of the ground count as
+// obstacles at rest, for a body on a foot those alone whose top is above its sole
+// (BodyClearances).
 // Proved body by body: over an interval each obstacle takes off its own speed times the half
-// width. Subject: index of RobotModel::bodies. Other: the obstacle.
+// width, and the solids above the lowest that the sole may be in it count.
+// Subject: index of RobotModel::bodies. Other: as Scene::NameOf counts.
 class ClearanceMargin final : public MarginStatements {
  public:
   static constexpr FamilyTraits kTraits = {
@@ -41,11 +44,13 @@ class ClearanceMargin final : public MarginStatements {
 
   std::string Subject(const Margin& margin) const override {
     const std::string body = BodyName(place_.robot, margin.subject);
-    return margin.other < 0 ? body : body + " - " + Nth(place_.scene.obstacles, margin.other).name;
+    return margin.other < 0 ? body : body + " - " + place_.scene.NameOf(margin.other);
   }
 
   std::vector<Side> PlacedFeet(const Margin& margin) const override {
-    const bool rests = margin.other >= 0 && Nth(place_.scene.obstacles, margin.other).rests();
+    if (margin.other < 0) return {};
+    const Obstacle* obstacle = place_.scene.ObstacleAt(margin.other);
+    const bool rests = obstacle == nullptr || obstacle->rests();
     return rests ? FootOf(place_.robot, margin.subject) : std::vector<Side>();
   }
 
@@ -104,10 +109,12 @@ class ClearanceMargin final : public MarginStatements {
         of->AddPoint(place_.robot.bodies[b], posture, gap.point_a_W, gap.normal_W);
       };
       // As time goes on the obstacle moves, and what is known of it changes.
-      const Obstacle& obstacle = Nth(place_.scene.obstacles, nearest.obstacle);
-      const Eigen::Vector3d velocity =
-          obstacle.motion.VelocityAt(obstacle.X_WO, at->t(), gap.point_b_W);
-      const double rate = -gap.normal_W.dot(velocity) - obstacle.motion.UncertaintyRateAt(at->t());
+      double rate = 0.0;
+      if (const Obstacle* obstacle = place_.scene.ObstacleAt(nearest.obstacle)) {
+        const Eigen::Vector3d velocity =
+            obstacle->motion.VelocityAt(obstacle->X_WO, at->t(), gap.point_b_W);
+        rate = -gap.normal_W.dot(velocity) - obstacle->motion.UncertaintyRateAt(at->t());
+      }
       rows->AddOfPosture(at, nearest.margin - way, gradient, rate);
     }
   }
@@ -129,11 +136,11 @@ class ClearanceMargin final : public MarginStatements {
     std::erase_if(*open, [&](uint16_t body) {
       if (proof.violated) return false;
       const double bound = interval.motion.displacement[body] + rounding;  // of the body alone
-      const double apart = demanded + WayOf(interval.mid, body);
-      if (clearances.BodyClears(body, posture, t, apart + bound, &scratch, half_width)) {
+      const double apart = demanded + WayOf(interval.mid, body), sinks = Sinks(interval, body);
+      if (clearances.BodyClears(body, posture, t, apart + bound, &scratch, half_width, sinks)) {
         if (interval.with_margins) {
           const double enough = std::max(cap, demanded + bound + rounding);
-          const Margin margin = OfBody(interval.mid, posture, body, enough, half_width);
+          const Margin margin = OfBody(interval.mid, posture, body, enough, half_width, sinks);
           const double of_obstacle =
               margin.other < 0 ? 0.0 : clearances.obstacle_speed(margin.other) * half_width;
           proof.held.Add(margin, bound + of_obstacle);
@@ -153,12 +160,19 @@ class ClearanceMargin final : public MarginStatements {
   double WayOf(const Instant& at, size_t body) const {
     return levers_.WayOf(body, at.limits().tube);
   }
+  // How much lower the sole of a body on a foot may be within an interval, where that matters [m].
+  double Sinks(const MarginInterval& interval, size_t b) const {
+    const RobotBody& body = place_.robot.bodies[b];
+    if (!place_.clearances.has_solids() || !IsOnFoot(body)) return 0.0;
+    const Side side = static_cast<Side>(body.leg);
+    return std::max(0.0, interval.motion.jet.value[FootIndex(side) + 2] - interval.LeastSole(side));
+  }
   // The margin of a body; `cap` where nothing is nearer.
   Margin OfBody(const Instant& at, const Posture& posture, size_t body, double cap,
-                double half_width = 0.0) const {
+                double half_width = 0.0, double sinks = 0.0) const {
     const double way = WayOf(at, body);
     Margin margin = place_.clearances.OfBody(body, posture, at.t(), cap + way, &at.scratch().bodies,
-                                             half_width);
+                                             half_width, sinks);
     margin.value -= way;
     return margin;
   }

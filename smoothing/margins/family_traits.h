@@ -115,6 +115,8 @@ struct FamilyTraits {
   bool may_be_absent = false;
   Untold untold = kNeedsLegs;   ///< where it is −∞
   TubeShare in_tube = nullptr;  ///< null: what is certified of it is about the planned motion alone
+  /// Of margins that have a second subject (Margin::other); empty: as `sentence`.
+  MarginSentence of_two = {};
 };
 
 /// Whether traits leave out nothing that has no default.

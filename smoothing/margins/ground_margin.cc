@@ -67,17 +67,10 @@ class GroundMargin final : public WholeFamily {
     const BodyHeights& heights = place_.heights;
     const IntervalMotion& motion = interval.motion;
     const WalkState& x = motion.jet.value;
-    const double h = motion.half_width, t = interval.mid.t();
     const double rounding = interval.mid.rounding();
-    const int step = interval.mid.step_in_air();
     for (int body : heights.on_feet()) {
       const Side side = static_cast<Side>(Nth(place_.robot.bodies, body).leg);
-      const int z = FootIndex(side) + 2;
-      double least = x[z] - heights.floor() - motion.Change(z);
-      if (step >= 0 && interval.mid.swing() == side) {
-        least =
-            std::max(least, interval.mid.walk().LeastHeight(step, t - h, t + h) - heights.floor());
-      }
+      const double least = interval.LeastSole(side) - heights.floor();
       // On the floor or above it for all t, below it at the midpoint, or neither is known.
       const double margin = heights.OnFoot(body, x);
       const bool open = least < -kSoleRounding && margin > 0.0;

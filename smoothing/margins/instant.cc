@@ -1,5 +1,7 @@
 #include "smoothing/margins/instant.h"
 
+#include <algorithm>
+
 #include "wpg/robot/gravity.h"
 
 namespace halfstep {
@@ -67,6 +69,14 @@ StandingHeights Instant::heights() const {
 WalkThirds MarginInterval::Thirds() const {
   const double middle = mid.t(), h = motion.half_width;
   return mid.walk().ThirdRanges(middle - h, middle + h);
+}
+
+double MarginInterval::LeastSole(Side side) const {
+  const int z = FootIndex(side) + 2, step = mid.step_in_air();
+  const double least = motion.jet.value[z] - motion.Change(z);
+  if (step < 0 || mid.swing() != side) return least;
+  const double t = mid.t(), h = motion.half_width;
+  return std::max(least, mid.walk().LeastHeight(step, t - h, t + h));
 }
 
 const RobotDrift& MarginInterval::drift() const {

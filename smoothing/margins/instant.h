@@ -93,6 +93,9 @@ class MarginInterval {
   const IntervalMotion& motion;  ///< bounds of the motion around it
   const bool with_margins;       ///< whether margins are told where a bound would do
 
+  /// No lower than here is a sole within the interval, in W [m].
+  double LeastSole(Side side) const;
+
   /// How much the motion of all bodies differs from that at the midpoint. Precondition:
   /// mid.motion() is not null. Where masses are not known, what it says of masses means nothing.
   const RobotDrift& drift() const;

@@ -6,12 +6,12 @@
 namespace halfstep {
 namespace {
 
-// Up to here above the floor the limit is what it is; above, it grows with the height [m].
+// Up to here above its landing the limit is what it is; above, it grows with the height [m].
 constexpr double kLast = 0.01;
 
-// v·max(1, z/1 cm) − how fast the swing sole sinks [m/s], with its height z above the floor and the
-// limit v: the limit itself in the last centimetre; +∞ while both feet stand. Present where there
-// is a limit. Subject: Index(Side). Source: smoothing/README.md, "Landing".
+// v·max(1, z/1 cm) − how fast the swing sole sinks [m/s], with its height z above the place where
+// it lands and the limit v: the limit itself in the last centimetre; +∞ while both feet stand.
+// Present where there is a limit. Subject: Index(Side). Source: smoothing/README.md, "Landing".
 class LandingSpeedMargin final : public SwingFootFamily<LandingSpeedMargin> {
  public:
   static constexpr FamilyTraits kTraits = {
@@ -34,8 +34,7 @@ class LandingSpeedMargin final : public SwingFootFamily<LandingSpeedMargin> {
       .may_be_absent = true,
   };
 
-  explicit LandingSpeedMargin(const MarginPlace& place)
-      : SwingFootFamily(kTraits), floor_(place.scene.ground->Floor()) {}
+  explicit LandingSpeedMargin(const MarginPlace&) : SwingFootFamily(kTraits) {}
 
   bool present(const MarginLimits& limits) const override {
     return limits.landing_speed.has_value();
@@ -65,12 +64,16 @@ class LandingSpeedMargin final : public SwingFootFamily<LandingSpeedMargin> {
 
  private:
   static int Height(const Instant& at) { return FootIndex(at.swing()) + 2; }
-  double HeightAbove(const Instant& at) const { return at.jet().value[Height(at)] - floor_; }
+  static double HeightAbove(const Instant& at) {
+    // A walk that stops on one foot has no landing: as if it were back to where the foot came from.
+    const int up = 2 * at.step_in_air();
+    const int i = up + 1 < at.walk().num_half_steps() ? up + 1 : up;
+    const double landing = at.walk().X_WS(i).height + at.walk().half_step(i).X_SF.height;
+    return at.jet().value[Height(at)] - landing;
+  }
   static double Allowed(const Instant& at, double height) {
     return *at.limits().landing_speed * std::max(1.0, height / kLast);
   }
-
-  double floor_;  // [m]
 };
 
 }  // namespace

@@ -38,6 +38,7 @@ enum class MarginFamily : int {
   kJointAcceleration,
   kDoubleSupport,  ///< how long a half-step's ZMP goes from foot to foot [s]
   kLandingSpeed,   ///< limit − how fast the swing sole sinks near the floor [m/s]
+  kFoothold,       ///< distance of a standing sole's outline inside its level of the ground [m]
   kOwn,            ///< what the program itself adds (own_margin.h), of its scale [1]
 };
 /// How many families there are.
@@ -72,11 +73,13 @@ struct Margin {
   LocalTime at = {};                         ///< the same instant by half-step
   double t = 0.0;                            ///< absolute time in the walk where it was found [s]
   /// What the margin belongs to, −1: nothing in particular. Both ZMPs: the step in the air, or −1.
-  /// Floor, foot speed, foot yaw rate, landing speed, no-step: Index(Side). Double support: the
-  /// half-step. Reach, joints, joint speeds and accelerations, torques: 6·Index(Side) + joint.
-  /// Clearances and ground: index of RobotModel::bodies.
+  /// Floor, foot speed, foot yaw rate, landing speed, no-step, foothold: Index(Side). Double
+  /// support: the half-step. Reach, joints, joint speeds and accelerations, torques: 6·Index(Side)
+  /// + joint. Clearances and ground: index of RobotModel::bodies.
   int subject = -1;
-  int other = -1;  ///< index of the obstacle (clearance), second body (self-clearance) or area
+  /// Index of the obstacle or solid (clearance, floor; Scene::NameOf), second body
+  /// (self-clearance), area (no-step) or solid of the ground (foothold).
+  int other = -1;
   /// Not −1: found in the stop branch after this half-step; `at` and `t` are times of the branch.
   int stop_after = -1;
 };

@@ -5,13 +5,15 @@
 #include <utility>
 #include <vector>
 
+#include "planner/ground/level_borders.h"
 #include "planner/scene/no_step_areas.h"
 #include "planner/scene/scene.h"
 #include "smoothing/margins/body_clearances.h"
 #include "smoothing/margins/body_heights.h"
+#include "smoothing/margins/foot_solids.h"
 #include "smoothing/margins/rounding.h"
 #include "smoothing/margins/work.h"
-#include "wpg/check.h"
+#include "wpg/geometry/foothold.h"
 #include "wpg/geometry/pose2.h"
 #include "wpg/robot/robot_model.h"
 #include "wpg/workers.h"
@@ -21,8 +23,7 @@ namespace halfstep {
 /// A robot among the obstacles of a scene, prepared for the questions of all families. It cannot be
 /// moved, because its parts borrow from each other.
 struct MarginPlace {
-  /// Prepares both; takes as long as building the scene's trees. Precondition: nothing stands out
-  /// of the ground's floor, since no family keeps off solids yet (std::logic_error).
+  /// Prepares both; takes as long as building the scene's trees.
   MarginPlace(RobotModel r, Scene s, OwnMargins its_own)
       : robot(std::move(r)),
         scene(std::move(s)),
@@ -30,9 +31,9 @@ struct MarginPlace {
         clearances(robot, scene),
         heights(robot, scene.ground->Floor()),
         areas(scene, robot.sole_outline),
-        rounding(robot) {
-    HALFSTEP_CHECK(scene.ground->Solids().empty(), scene.ground->Solids().size() << " solids");
-  }
+        solids(robot, scene),
+        levels(*scene.ground),
+        rounding(robot) {}
   MarginPlace(const MarginPlace&) = delete;
   MarginPlace& operator=(const MarginPlace&) = delete;
 
@@ -42,6 +43,8 @@ struct MarginPlace {
   BodyClearances clearances;  ///< of the robot's bodies in the scene
   BodyHeights heights;        ///< of the robot's bodies above the floor
   NoStepAreas areas;          ///< of the scene, for the robot's soles
+  FootSolids solids;          ///< of the scene's ground, for the robot's feet
+  LevelBorders levels;        ///< of the scene's ground
   Rounding rounding;          ///< of the robot's walks
 };
 
@@ -54,10 +57,17 @@ struct MarginScratch {
     NoStepAreas::Nearest nearest;  ///< the area nearest to it there
     bool known = false;            ///< whether it has stood
   };
+  /// The border of its level that was nearest to a sole where it stood last.
+  struct OnLevel {
+    Foothold X_WF;                  ///< where the sole stood
+    LevelBorders::Nearest nearest;  ///< the border nearest to it there
+    bool known = false;             ///< whether it has stood
+  };
   BodyClearances::Scratch bodies;         ///< of BodyClearances
   Work work = {};                         ///< done so far
   std::stop_token stop = {};              ///< ends proofs; what is not decided then stays undecided
   std::array<Standing, 2> standing = {};  ///< by Index(Side)
+  std::array<OnLevel, 2> on_level = {};   ///< by Index(Side)
   /// Threads that proofs may use beside the caller's, borrowed; null: none.
   Workers* workers = nullptr;
   std::vector<MarginScratch> of_others = {};  ///< of those threads, made when they are first used

@@ -138,7 +138,8 @@ HomotopyParameters TypicalStart(const WalkProblem& problem, const ParameterChoic
     forms.push_back(form != nullptr ? form : &FormOfStep(sequence, j, problem.robot()));
   }
   const HomotopyParameters start = StartOf(problem, table, forms);
-  if (form != nullptr || problem.scene().obstacles.empty()) return start;
+  const Scene& scene = problem.scene();
+  if (form != nullptr || (scene.obstacles.empty() && scene.ground->Solids().empty())) return start;
   const SuperposedWalk walk(sequence, start);
   const double demanded = problem.limits().demanded_of(MarginFamily::kClearance);
   for (int k = 0; k < sequence.size(); ++k) {

@@ -98,11 +98,9 @@ std::string ComplaintAbout(const HalfStepSequence& sequence,
            << ")";
       return text.str();
     }
-    const double least_height = parameter.family == ParameterFamily::kHeightScale
-                                    ? LeastHeightScale(sequence, parameter.index)
-                                    : 0.0;
-    if (value < least_height) {
-      text << value << " is too small (valid: from " << least_height
+    if (parameter.family == ParameterFamily::kHeightScale &&
+        value < LeastHeightScale(sequence, parameter.index)) {
+      text << value << " is too small (valid: from " << LeastHeightScale(sequence, parameter.index)
            << ", where the foot passes no lower than it stands)";
       return text.str();
     }

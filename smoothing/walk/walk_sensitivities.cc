@@ -170,6 +170,7 @@ void SuperposedWalk::Sensitivities(const LocalTime& at, std::vector<WalkSensitiv
                   &sums.Of(parameter, /*met=*/i > first));
     }
     for (const Family family : FamiliesOf<ParameterPart::kProfile>()) {
+      if (Traits(family).of_heights && !p.tracks.waist_rises()) continue;
       if (!sums.Wants({family, i})) continue;
       under_way.AddOfProfiles(Traits(family).shape, &sums.Of({family, i}, /*met=*/false));
     }

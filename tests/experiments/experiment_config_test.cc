@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "experiments/config/experiment.h"
+#include "experiments/tables/result_tables.h"
 #include "smoothing/methods/dichotomy.h"
 #include "smoothing/methods/solver_method_options.h"
 #include "tests/fixture_check.h"
@@ -70,6 +71,97 @@ TEST(Footholds, HaveTheHeightOfTheGroundUnderThem) {
   }
 }
 
+// Of the shipped flight: where the soles stand, and what its levels are called.
+TEST(Footholds, StandOnTheLevelsOfAScene) {
+  const auto config_of = [](const std::string& name) {
+    return LoadConfig((kConfigs / (name + ".yaml")).string(), {});
+  };
+  std::vector<double> heights;
+  const ExperimentConfig up = config_of("stairs_15cm");
+  const Place place = LoadPlace(up);
+  for (const Footstep& step : FootstepsOf(up, place.robot, *place.scene.ground)) {
+    heights.push_back(step.X_WF.height);
+  }
+  EXPECT_THAT(heights, testing::ElementsAre(0.15, 0.3, 0.45, 0.45));
+  const ExperimentConfig down = config_of("stairs_10cm_down");
+  const Place top = LoadPlace(down);
+  EXPECT_EQ(StartOf(down, top.robot, *top.scene.ground)[1].height, 0.3);
+  EXPECT_EQ(FootstepsOf(down, top.robot, *top.scene.ground).back().X_WF.height, 0.0);
+}
+
+TEST(Footholds, AreOnTheLevelThatWasChosen) {
+  const RobotModel robot = LoadPlace(LoadConfig((kConfigs / "bar_8cm.yaml").string(), {})).robot;
+  const Scene scene = ParseScene("bridge.yaml", R"(surfaces:
+  - {name: bridge, polygon_m: [[-1, -1], [1, -1], [1, 1], [-1, 1]], height_m: 2.5, thickness_m: 0.1}
+  - {name: box, polygon_m: [[1, -1], [2, -1], [2, 1], [1, 1]], height_m: 0.2}
+)");
+  const Ground& ground = *scene.ground;
+  const auto height = [&](double x, const LevelChoice& on) {
+    return OnGround(ground, robot, {x, 0, 0}, "footsteps[3]", on).height;
+  };
+  EXPECT_EQ(height(0, {}), 2.5);
+  EXPECT_EQ(height(0, {.name = "floor"}), 0.0);
+  EXPECT_EQ(height(0, {.name = "bridge"}), 2.5);
+  EXPECT_EQ(height(0, {.z = 0.0}), 0.0);
+  EXPECT_EQ(height(1.5, {.z = 0.2}), 0.2);
+  const auto refusal = [&](double x, const LevelChoice& on) -> std::string {
+    try {
+      (void)height(x, on);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(refusal(0, {.name = "brigde"}),
+            "footsteps[3].level: the scene has no surface of the name 'brigde' (did you mean "
+            "'bridge'? valid: bridge, box, floor)");
+  EXPECT_EQ(refusal(0, {.z = 0.21}),
+            "footsteps[3].z_m: no level of the scene is at z = 0.21 m (valid: 0, 0.2, 2.5)");
+  EXPECT_EQ(refusal(0, {.name = "box"}),
+            "footsteps[3]: the ground does not bear a sole at x = 0 m, y = 0 m: there is nothing "
+            "below it (valid: all of it on one level)");
+  EXPECT_THAT(refusal(1.9, {}), testing::HasSubstr(" mm over the edge of box (valid: all of it"));
+}
+
+TEST(ExperimentConfig, ALevelIsWrittenWhereItIsSaid) {
+  const TemporaryFolder place;
+  const std::string text =
+      "{robot: hrp2, scene: none, footsteps: [{foot: right, x_m: 0.2, y_m: -0.1, level: floor},\n"
+      "  {foot: left, x_m: 0.2, y_m: 0.1, z_m: 0}]}";
+  const std::string written = Written(LoadConfig(WriteText(place / "c.yaml", text), {}));
+  EXPECT_THAT(written, testing::HasSubstr("    level: floor\n"));
+  EXPECT_THAT(written, testing::HasSubstr("    z_m: 0\n"));
+  EXPECT_EQ(Written(LoadConfig(WriteText(place / "again.yaml", written), {})), written);
+  const std::string plain = Written(LoadConfig((kConfigs / "bar_8cm.yaml").string(), {}));
+  EXPECT_THAT(plain,
+              testing::Not(testing::AnyOf(testing::HasSubstr("level"), testing::HasSubstr("z_m"),
+                                          testing::HasSubstr("foothold"))));
+}
+
+// A table of footsteps that has heights chooses levels by them.
+TEST(ExperimentConfig, FootstepsCsvHasHeightsWhereTheGroundIsUneven) {
+  const TemporaryFolder place;
+  const Experiment e = Prepare(LoadConfig((kConfigs / "stairs_10cm.yaml").string(), {}));
+  const CsvFile table = FootstepsCsv(e.sequence);
+  EXPECT_THAT(table.text, testing::StartsWith("footstep,foot,x_m,y_m,z_m,yaw_rad,"));
+  EXPECT_THAT(table.text, testing::HasSubstr("\n3,right,0.84,-0.105,0.3,0,"));
+  const Experiment flat = Prepare(LoadConfig((kConfigs / "bar_8cm.yaml").string(), {}));
+  EXPECT_THAT(FootstepsCsv(flat.sequence).text,
+              testing::StartsWith("footstep,foot,x_m,y_m,yaw_rad,"));
+  WriteText(place / "steps.csv", table.text);
+  const ExperimentConfig read = LoadConfig(
+      WriteText(place / "c.yaml",
+                "{robot: hrp2, scene: " + (kConfigs / "../scenes/stairs_10cm.yaml").string() +
+                    ", footsteps_file: {path: steps.csv}}"),
+      {});
+  EXPECT_EQ(read.footsteps[2].on.z, 0.3);
+  EXPECT_EQ(read.start_left_on.z, 0.0);
+  const HalfStepSequence again = Prepare(read).sequence;
+  for (size_t i = 0; i < again.half_steps.size(); ++i) {
+    EXPECT_EQ(again.half_steps[i].X_WS, e.sequence.half_steps[i].X_WS);
+  }
+}
+
 class RefusedConfig : public testing::TestWithParam<std::string> {};
 TEST_P(RefusedConfig, SaysWhy) {
   CheckFixture(GetParam(), [](const std::string& path) { LoadConfig(path, {}); });
@@ -91,7 +183,8 @@ TEST_P(ShippedConfigTest, LoadsWithItsRobotAndScene) {
   EXPECT_EQ(config.name, fs::path(GetParam()).stem());
   const Experiment experiment = Prepare(config);
   EXPECT_EQ(experiment.robot.name, config.robot);
-  EXPECT_EQ(experiment.scene.obstacles.empty() && experiment.scene.no_step.empty(),
+  EXPECT_EQ(experiment.scene.obstacles.empty() && experiment.scene.no_step.empty() &&
+                experiment.scene.ground->OnlyLevel(),
             config.scene == "none");
   EXPECT_NE(config.has_goal, !config.footsteps.empty());
   EXPECT_EQ(experiment.sequence.size(), static_cast<int>(2 * config.footsteps.size()));

@@ -72,13 +72,21 @@ TEST(ExplainConfig, DefaultsAndKeysAreThoseOfAResolvedConfig) {
   config.has_goal = config.smoothing.has_given = config.has_replay = true;
   config.smoothing.has_tube = true;
   // So that these keys are, which are left out at their defaults.
-  const std::set<std::string> left_out = {
-      "smoothing.margins.joint_acceleration_rad_s2", "smoothing.margins.double_support_s",
-      "smoothing.margins.landing_speed_m_s", "smoothing.limits.landing_speed_m_s",
-      "smoothing.limits.joint_acceleration_rad_s2"};
+  const std::set<std::string> left_out = {"smoothing.margins.joint_acceleration_rad_s2",
+                                          "smoothing.margins.double_support_s",
+                                          "smoothing.margins.landing_speed_m_s",
+                                          "smoothing.limits.landing_speed_m_s",
+                                          "smoothing.limits.joint_acceleration_rad_s2",
+                                          "smoothing.margins.foothold_m",
+                                          "footsteps.N.z_m",
+                                          "start.left.z_m",
+                                          "start.right.z_m"};
+  for (LevelChoice* on : {&config.start_left_on, &config.start_right_on, &config.footsteps[0].on}) {
+    *on = {"floor", 0.0};
+  }
   MarginLimits& limits = config.smoothing.limits;
   for (const MarginFamily family : {MarginFamily::kJointAcceleration, MarginFamily::kDoubleSupport,
-                                    MarginFamily::kLandingSpeed}) {
+                                    MarginFamily::kLandingSpeed, MarginFamily::kFoothold}) {
     limits.demanded_of(family) = 1.0;
   }
   config.smoothing.assumed_acceleration = limits.landing_speed = 1.0;

@@ -264,7 +264,7 @@ TEST(SceneCommand, WhatItCannotReadIsRefusedAtItsPlace) {
            {"a.ply", Replaced(ply, "3 0 1 4 7", "3 0 1 5 7"), ":19:1: no vertex 5 (valid: 0 … 4)"},
            {"a.ply", Replaced(ply, "0.5 0.5 1", "0.5 nan 1"), "'nan'"},
            {"a.pgm", "P2 2 2 255 1 2 3", "needs --cell"},
-           {"a.png", "", "PNG is not read"},
+           {"a.png", "", "needs --cell"},
            {"a.fbx", "", "unknown kind of file"}}) {
     EXPECT_THAT(RefusalOf(c.name, c.bytes), HasSubstr(c.complaint)) << c.name;
   }

@@ -19,5 +19,10 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   for (const Eigen::Matrix2Xd& area : scene.no_step) {
     fuzz::Require(area.cols() >= 3 && area.allFinite(), "an area is no polygon");
   }
+  for (const GroundSolid& solid : scene.ground->Solids()) {
+    fuzz::Require(solid.polygon.cols() >= 3 && solid.polygon.allFinite() &&
+                      solid.bottom < solid.top && solid.bottom >= scene.ground->Floor(),
+                  "a solid is no prism");
+  }
   return 0;
 }

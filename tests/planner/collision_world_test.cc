@@ -10,7 +10,9 @@
 #include <thread>
 #include <vector>
 
+#include "planner/scene/solid_body.h"
 #include "tests/draws.h"
+#include "tests/planner/blocks_ground.h"
 
 namespace halfstep {
 namespace {
@@ -171,6 +173,68 @@ TEST(CollisionWorld, FindsAnObstacleThatIsNearByItsErrorAlone) {
   CollisionWorld::Scratch scratch;
   EXPECT_FALSE(world.Clears(body, X_WB, 0.0, 0.0, &scratch));
   EXPECT_NEAR(world.FindNearest(body, X_WB, 0.0, 0.0).margin, -0.05, 1e-9);
+}
+
+// Solids of the ground come behind the obstacles; low ones may be left out, obstacles never.
+TEST(CollisionWorld, SolidsAreObstaclesAtRestUnlessTheyAreTooLow) {
+  Scene scene;
+  scene.obstacles.push_back({.name = "ball", .shape = Sphere{0.05}});
+  scene.obstacles.back().X_WO.translation() << -1.0, 0.0, 0.1;
+  GroundSolid turned = Block("turned", 0.0, 0.4, -0.2, 0.2, 0.3, 0.0);
+  const Pose2 X_WT{2.0, 0.0, 0.7};
+  turned.polygon = (X_WT.rotation() * turned.polygon).colwise() + X_WT.position();
+  scene.ground = std::make_shared<const BlocksGround>(
+      BlocksGround::kNoFloor, std::vector{Block("low", 0.0, 1.0, -1.0, 1.0, 0.1), turned});
+  EXPECT_EQ(scene.NameOf(0), "ball");
+  EXPECT_EQ(scene.NameOf(1), "low");
+  EXPECT_EQ(scene.NameOf(2), "turned");
+  EXPECT_EQ(scene.ObstacleAt(2), nullptr);
+  EXPECT_EQ(scene.ObstacleAt(0), &scene.obstacles[0]);
+  const CollisionWorld world(scene);
+  EXPECT_EQ(world.num_obstacles(), 3);
+  EXPECT_TRUE(world.has_solids());
+  EXPECT_EQ(world.speed(2), 0.0);
+  const CollisionShape body(MakeSphere(0.02));
+  CollisionWorld::Scratch scratch;
+  const auto at = [](double x, double z) { return Isometry3d(Eigen::Translation3d(x, 0.0, z)); };
+  // Above the low one.
+  const auto over = world.FindNearest(body, at(0.5, 0.15), 0.0, 1.0);
+  EXPECT_EQ(over.obstacle, 1);
+  EXPECT_NEAR(over.margin, 0.03, 1e-12);
+  EXPECT_FALSE(world.Clears(body, at(0.5, 0.15), 0.0, 0.031, &scratch));
+  EXPECT_TRUE(world.Clears(body, at(0.5, 0.15), 0.0, 0.031, &scratch, 0.0, 0.1));
+  EXPECT_FALSE(world.Clears(body, at(0.5, 0.15), 0.0, 0.031, &scratch, 0.0, 0.0999));
+  EXPECT_EQ(world.FindNearest(body, at(0.5, 0.15), 0.0, 1.0, 0.0, 0.1).obstacle, -1);
+  // Before the corner of the turned one.
+  const auto before = world.FindNearest(body, at(1.8, 0.15), 0.0, 0.5, 0.0, 0.2);
+  EXPECT_EQ(before.obstacle, 2);
+  EXPECT_NEAR(before.separation.point_b_W.z(), 0.15, 0.16);
+  // The ball counts whatever is left out.
+  EXPECT_EQ(world.FindNearest(body, at(-0.9, 0.1), 0.0, 0.5, 0.0, 10.0).obstacle, 0);
+  EXPECT_FALSE(world.Clears(body, at(-0.9, 0.1), 0.0, 0.04, &scratch, 0.0, 10.0));
+  // Corners one way or the other do not change where a solid is.
+  GroundSolid other = Block("other", 0.0, 1.0, -1.0, 1.0, 0.1);
+  other.polygon << 1.0, 1.0, 0.0, 0.0, -1.0, 1.0, 1.0, -1.0;
+  EXPECT_TRUE(std::holds_alternative<Box>(BodyOf(other).shape));
+  EXPECT_TRUE(std::holds_alternative<Box>(BodyOf(turned).shape));
+  GroundSolid oblique = turned;
+  oblique.polygon.col(2).x() += 0.01;
+  EXPECT_FALSE(std::holds_alternative<Box>(BodyOf(oblique).shape));
+  for (const GroundSolid& solid : {other, turned, oblique}) {
+    const Obstacle body = BodyOf(solid);
+    const ConvexBody shape = std::holds_alternative<Box>(body.shape)
+                                 ? BodyOf(std::get<Box>(body.shape))
+                                 : std::get<ConvexBody>(body.shape);
+    const Eigen::Matrix3Xd corners = body.X_WO * Eigen::Matrix3Xd(shape.vertices);
+    for (const Eigen::Vector2d& p : solid.polygon.colwise()) {
+      for (const double z : {solid.bottom, solid.top}) {
+        EXPECT_LT((corners.colwise() - Vector3d(p.x(), p.y(), z)).colwise().norm().minCoeff(),
+                  1e-12);
+      }
+    }
+  }
+  other.top = other.bottom;
+  EXPECT_THROW(BodyOf(other), std::logic_error);
 }
 
 TEST(CollisionWorld, PosesThatAreNotFiniteThrow) {

@@ -3,11 +3,11 @@
 #include <vector>
 
 #include "planner/scene/scene.h"
-#include "planner/scene/simple_polygon.h"
 #include "planner/search/footstep_planner.h"
 #include "planner/search/half_step_query.h"
 #include "planner/search/step_set.h"
 #include "wpg/geometry/foothold.h"
+#include "wpg/geometry/simple_polygon.h"
 #include "wpg/geometry/support_polygon.h"
 
 namespace halfstep {

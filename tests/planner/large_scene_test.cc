@@ -6,11 +6,11 @@
 #include <random>
 #include <vector>
 
-#include "planner/collision/bounds_tree.h"
 #include "planner/collision/collision_world.h"
 #include "planner/collision/mesh_interior.h"
 #include "planner/collision/triangle_surface.h"
 #include "tests/planner/swept_volume_draws.h"
+#include "wpg/geometry/bounds_tree.h"
 #include "wpg/geometry/support_polygon.h"
 
 namespace halfstep {

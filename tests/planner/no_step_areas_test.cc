@@ -7,8 +7,8 @@
 #include <numbers>
 #include <random>
 
-#include "planner/scene/simple_polygon.h"
 #include "tests/draws.h"
+#include "wpg/geometry/simple_polygon.h"
 
 namespace halfstep {
 namespace {

@@ -13,9 +13,9 @@
 #include <variant>
 
 #include "planner/collision/separation.h"
-#include "planner/scene/simple_polygon.h"
 #include "tests/fixture_check.h"
 #include "wpg/files/input_error.h"
+#include "wpg/geometry/simple_polygon.h"
 
 namespace halfstep {
 namespace {

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
+#include "planner/ground/level_ground.h"
 #include "tests/scenarios/load_experiment.h"
 #include "tests/smoothing/test_walks.h"
 #include "tests/wpg/joint_limits.h"
@@ -18,6 +20,9 @@ class SlackRows : public testing::Test {
   const Experiment e_ = LoadExperiment("bar_8cm");
   const MarginEvaluator evaluator_{WithAccelerationLimits(e_.robot, 30.0), e_.scene,
                                    e_.config.smoothing.limits};
+
+  // Whether the family's rows have the slopes of differences, and are there where footsteps move.
+  void AgreeWithDifferences(const Scene& scene, MarginFamily family);
 };
 
 TEST_F(SlackRows, TheLeastOfEachFamilyIsItsMargin) {
@@ -106,13 +111,29 @@ TEST_F(SlackRows, GradientsAgreeWithDifferences) {
 TEST_F(SlackRows, OfNoStepAreasAgreeWithDifferences) {
   Scene scene;
   scene.no_step.push_back((Eigen::Matrix2Xd(2, 3) << 0.2, 0.5, 0.45, 0.2, 0.22, 0.4).finished());
+  AgreeWithDifferences(scene, MarginFamily::kNoStep);
+}
+
+// The same of a block, beside which the floor is level.
+TEST_F(SlackRows, OfFootholdsAgreeWithDifferences) {
+  const LevelSurface block{
+      .name = "block",
+      .polygon = (Eigen::Matrix2Xd(2, 3) << 0.2, 0.5, 0.45, 0.2, 0.22, 0.4).finished(),
+      .height = 0.1,
+      .bottom = 0.0};
+  Scene scene;
+  scene.ground = std::make_shared<const LevelGround>(std::vector{block}, true);
+  AgreeWithDifferences(scene, MarginFamily::kFoothold);
+}
+
+void SlackRows::AgreeWithDifferences(const Scene& scene, MarginFamily family) {
   const MarginEvaluator evaluator(e_.robot, scene, e_.config.smoothing.limits);
   SlackEvaluator slacks(evaluator, 40.0, {}, /*footsteps_move=*/true), without(evaluator, 40.0);
   WalkDraw draw(353);
-  const auto slack_of = [](const InstantSlacks& instant) {
+  const auto slack_of = [family](const InstantSlacks& instant) {
     double least = 1e9;
     for (const SlackRow& row : instant.rows) {
-      if (row.family == MarginFamily::kNoStep) least = std::min(least, row.slack);
+      if (row.family == family) least = std::min(least, row.slack);
     }
     return least;
   };
@@ -126,10 +147,9 @@ TEST_F(SlackRows, OfNoStepAreasAgreeWithDifferences) {
     without.At(walk, at, {}, true, &none);
     EXPECT_EQ(slack_of(none), 1e9);
     size_t row = 0;
-    while (row < here.rows.size() && here.rows[row].family != MarginFamily::kNoStep) ++row;
+    while (row < here.rows.size() && here.rows[row].family != family) ++row;
     if (row == here.rows.size()) continue;
-    const bool two =
-        row + 1 < here.rows.size() && here.rows[row + 1].family == MarginFamily::kNoStep;
+    const bool two = row + 1 < here.rows.size() && here.rows[row + 1].family == family;
     if (two && here.rows[row + 1].slack < here.rows[row].slack) ++row;
     for (const HomotopyParameter& parameter : here.parameters) {
       const auto with = [&](double change) {

@@ -27,7 +27,8 @@ class ParameterTableTest : public testing::Test {
 
 TEST_F(ParameterTableTest, HoldsEveryParameterOnceAndStartsAsPlanned) {
   const ParameterTable table(sequence_);
-  ASSERT_EQ(table.rows().size(), 5u + 3u + 6u + 3u + 3u + 3u * 6u + 3u + 2u * 6u + 3u * 3u);
+  ASSERT_EQ(table.rows().size(),
+            5u + 3u + 6u + 3u + 3u + 3u * 6u + 3u + 2u * 6u + 3u * 3u + 2u * 6u);
   EXPECT_EQ(table.Start(), planned_);
   for (size_t row = 0; row < table.rows().size(); ++row) {
     const HomotopyParameter& parameter = table.rows()[row].parameter;
@@ -49,12 +50,16 @@ TEST_F(ParameterTableTest, FamiliesAreChosenByThemselvesOrWithThoseThatShareThei
     if (flag == nullptr) continue;
     *flag = true;
     for (const Family other : AllParameterFamilies()) {
-      const bool both = traits.move != nullptr && Traits(other).move != nullptr;
+      const auto of_heights = [](Family f) {
+        return f == Family::kHeightScale || Traits(f).of_heights;
+      };
+      const bool both = (traits.move != nullptr && Traits(other).move != nullptr) ||
+                        (of_heights(family) && of_heights(other));
       EXPECT_EQ(choice.moves(other), other == family || both || Traits(other).always)
           << traits.name << " and " << Traits(other).name;
     }
     EXPECT_TRUE(traits.key.empty() || choice.moves(traits.key)) << traits.name;
-    EXPECT_EQ(WithoutForms(choice) == choice, !traits.of_form) << traits.name;
+    EXPECT_EQ(WithoutForms(choice) == choice, !traits.of_form || traits.of_heights) << traits.name;
     for (const ParameterBoundKey& bound : traits.bounds()) {
       EXPECT_EQ(choice.bound(bound.key), bound.initial);
       EXPECT_LE(bound.min, bound.initial) << bound.key;

@@ -13,6 +13,8 @@ inline MarginLimits Only(MarginFamily family, double demanded) {
   limits.demanded.fill(-100.0);
   // It is −∞ where the ZMP is outside the support polygon.
   limits.demanded_of(MarginFamily::kFriction) = kNotDemanded;
+  // It is −∞ where a sole stands on no level.
+  limits.demanded_of(MarginFamily::kFoothold) = kNotDemanded;
   limits.demanded_of(family) = demanded;
   return limits;
 }

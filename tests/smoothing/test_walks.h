@@ -87,11 +87,15 @@ inline HomotopyParameters Mirrored(HomotopyParameters parameters) {
   return parameters;
 }
 
-/// Every parameter of a sequence.
+/// Every parameter of a sequence, but when waists rise that keep their height.
 inline std::vector<HomotopyParameter> AllParameters(const HalfStepSequence& sequence) {
   std::vector<HomotopyParameter> all;
   const ParameterTable table(sequence);
-  for (const ParameterRow& row : table.rows()) all.push_back(row.parameter);
+  for (const ParameterRow& row : table.rows()) {
+    const ParameterFamilyTraits& traits = Traits(row.parameter.family);
+    const bool rests = traits.of_heights && traits.stays(sequence, row.parameter.index);
+    if (!rests) all.push_back(row.parameter);
+  }
   return all;
 }
 

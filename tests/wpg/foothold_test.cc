@@ -38,12 +38,13 @@ TEST(Foothold, OnlyALevelOneIsAPoseOfItsLevel) {
   EXPECT_THROW((void)Foothold(pose, -0.01).LevelPose(), std::logic_error);
 }
 
-TEST(Foothold, RaisesTheFeetOfAState) {
+TEST(Foothold, RaisesTheFeetAndTheWaistOfAState) {
   WalkState x_S = WalkState::LinSpaced(0.1, 1.3);
   const Foothold X_AS({0.3, -0.1, 0.7}, 0.2);
   WalkState x_A = Transformed(Foothold::Level(X_AS.Planar()), x_S);
   x_A[kLeftZ] += 0.2;
   x_A[kRightZ] += 0.2;
+  x_A[kWaistZ] += 0.2;
   EXPECT_EQ(Transformed(X_AS, x_S), x_A);
 }
 

@@ -43,15 +43,24 @@ class HalfStepTest : public testing::Test {
     half_step.shape = Shape();
     return half_step;
   }
+  // With the swing foot up to 0.2 m lower, or 4 cm higher.
+  HalfStep RandomOnLevels() {
+    HalfStep half_step = Random();
+    half_step.X_SF.height = Uniform(-0.2, 0.04);
+    half_step.shape.rise_begin = Uniform(0.0, 0.75);
+    half_step.shape.rise_end = Uniform(0.85, 1.0);
+    half_step.shape.crouch = Uniform(0.0, 0.1);
+    return half_step;
+  }
   Lipm RandomLipm() { return Lipm(Uniform(0.6, 1.0)); }
 
  private:
   std::mt19937 random_{4};
 };
 
-// 5 profiles × (value, first, second).
+// Of each profile (value, first, second).
 Eigen::VectorXd Stacked(const ProfileJets& jets) {
-  Eigen::VectorXd all(15);
+  Eigen::VectorXd all(3 * kNumProfiles);
   int i = 0;
   for (const ProfileJet& p : jets) {
     all.segment<3>(i) << p.value, p.first, p.second;
@@ -62,7 +71,7 @@ Eigen::VectorXd Stacked(const ProfileJets& jets) {
 
 // Their derivatives in τ and in T.
 Eigen::MatrixXd Derivatives(const ProfileJets& jets) {
-  Eigen::MatrixXd all(15, 2);
+  Eigen::MatrixXd all(3 * kNumProfiles, 2);
   int i = 0;
   for (const ProfileJet& p : jets) {
     all.block<3, 1>(i, 0) << p.first, p.second, p.third;
@@ -76,7 +85,7 @@ TEST_F(HalfStepTest, DerivativesInTimeAndDuration) {
   double worst = 0;
   int checked = 0;
   for (int i = 0; i < 400; ++i) {
-    const HalfStep h = Random();
+    const HalfStep h = i % 2 == 0 ? Random() : RandomOnLevels();
     const Lipm lipm = RandomLipm();
     const HalfStepTracks tracks(h, lipm);
     const double tau = Uniform(0, h.duration);
@@ -156,14 +165,24 @@ TEST_F(HalfStepTest, GoesFromMidFeetToAboveTheSupportSoleAndBack) {
   h.via_height = 0.12;
   h.via_lateral = 0.22;
   WalkState floor, via;
-  // CoM, ZMP, waist yaw, left foot, right foot.
-  floor << 0.05, -0.1, 0.05, -0.1, 0.2, 0, 0, 0, 0, 0.1, -0.2, 0, 0.4;
-  via << 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, -0.22, 0.12, 0;
+  // CoM, ZMP, waist yaw, left foot, right foot, waist z.
+  floor << 0.05, -0.1, 0.05, -0.1, 0.2, 0, 0, 0, 0, 0.1, -0.2, 0, 0.4, 0;
+  via << 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, -0.22, 0.12, 0, 0;
   EXPECT_EQ(h.Start(), floor);
   EXPECT_EQ(h.End(), via);
   h.kind = HalfStepKind::kDown;
   EXPECT_EQ(h.Start(), via);
   EXPECT_EQ(h.End(), floor);
+  // A swing foot that stands lower takes the waist with it; one that stands higher does not.
+  h.X_SF.height = -0.1;
+  floor[kRightZ] = floor[kWaistZ] = -0.1;
+  EXPECT_EQ(h.End(), floor);
+  EXPECT_EQ(h.Start(), via);
+  h.X_SF.height = floor[kRightZ] = 0.1;
+  h.shape.crouch = 0.02;
+  floor[kWaistZ] = via[kWaistZ] = -0.02;
+  EXPECT_EQ(h.End(), floor);
+  EXPECT_EQ(h.Start(), via);
 }
 
 TEST_F(HalfStepTest, RestsOnTheSupportPointOnTheSideOfTheSwingFoot) {

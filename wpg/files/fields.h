@@ -32,6 +32,8 @@ struct TextSpec {
   std::vector<std::string> choices{};  ///< empty: any text.
   const char* listed_by = "";          ///< the command that lists choices that depend on the build
   const char* otherwise = "";  ///< what holds without the key, where no default value says it
+  /// Of a text that few files need: writing leaves the key out where it is empty.
+  bool left_out_empty = false;
 };
 /// What is said about a group of keys, or about a list of them.
 struct GroupSpec {

@@ -27,6 +27,11 @@ NumberSpec Told(NumberSpec spec) {
   return spec;
 }
 
+TextSpec Told(TextSpec spec) {
+  spec.left_out_empty = false;
+  return spec;
+}
+
 class Describer : public Fields {
  public:
   explicit Describer(std::string path) : path_(std::move(path)) {}
@@ -51,7 +56,7 @@ class Describer : public Fields {
     AddValue(Kind::kBoolean, key, spec, [&](Fields& f) { f.Boolean(key, value, spec); });
   }
   void Text(const char* key, std::string* value, const TextSpec& spec) override {
-    AddValue(Kind::kText, key, spec, [&](Fields& f) { f.Text(key, value, spec); });
+    AddValue(Kind::kText, key, spec, [&](Fields& f) { f.Text(key, value, Told(spec)); });
   }
   void Texts(const char* key, std::vector<std::string>* value, const TextSpec& spec) override {
     KeyDescription& added =

@@ -71,7 +71,8 @@ class YamlWriter : public Fields {
   void Boolean(const char* key, bool* value, const TextSpec&) override {
     Line(key, *value ? "true" : "false");
   }
-  void Text(const char* key, std::string* value, const TextSpec&) override {
+  void Text(const char* key, std::string* value, const TextSpec& spec) override {
+    if (spec.left_out_empty && value->empty()) return;
     Line(key, TextOf(*value));
   }
   void Texts(const char* key, std::vector<std::string>* value, const TextSpec&) override {

@@ -46,6 +46,7 @@ class HalfStepTracks {
 
   const std::array<Track, kNumTracks>& tracks() const { return tracks_; }  ///< in no order
   const WalkState& start() const { return start_; }  ///< all quantities at τ = 0
+  bool waist_rises() const { return rises_; }        ///< whether the waist's height changes
 
   /// All quantities at local time τ [s], clamped to [0, T].
   WalkJet At(double tau) const;

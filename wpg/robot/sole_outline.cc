@@ -43,7 +43,8 @@ std::vector<Eigen::Vector2d> LowPoints(const ConvexBody& body, const Eigen::Matr
   return low;
 }
 
-void AddBody(const ConvexBody& body, const Eigen::Isometry3d& X_SoleBody,
+// Of what is less than `height` above the sole's plane.
+void AddBody(const ConvexBody& body, const Eigen::Isometry3d& X_SoleBody, double height,
              std::vector<Eigen::Vector2d>* points) {
   // A point of the body is a point of its core and at most `around` in the plane, and lower than
   // it by at most `below`.
@@ -52,7 +53,7 @@ void AddBody(const ConvexBody& body, const Eigen::Isometry3d& X_SoleBody,
       body.ball_radius + body.disc_radius * X_SoleBody.linear().row(2).head<2>().norm();
   const Eigen::Matrix3Xd vertices =
       (X_SoleBody.linear() * body.vertices).colwise() + X_SoleBody.translation();
-  for (const Eigen::Vector2d& p : LowPoints(body, vertices, kNearFloor + below)) {
+  for (const Eigen::Vector2d& p : LowPoints(body, vertices, height + below)) {
     points->push_back(p);
     constexpr int kSides = 64;  // of a polygon around the disc of radius `around`
     for (int k = 0; around > 0 && k < kSides; ++k) {
@@ -63,20 +64,26 @@ void AddBody(const ConvexBody& body, const Eigen::Isometry3d& X_SoleBody,
   }
 }
 
-}  // namespace
-
-Eigen::Matrix2Xd SoleOutline(const RobotModel& robot) {
+Eigen::Matrix2Xd OutlineBelow(const RobotModel& robot, double height) {
   const auto rectangle = SoleCorners(Pose2{}, robot.sole_size);
   std::vector<Eigen::Vector2d> points(rectangle.colwise().begin(), rectangle.colwise().end());
   for (const RobotBody& body : robot.bodies) {
     if (body.leg < 0 || body.link != 5) continue;
-    AddBody(body.shape, FootInSole(Nth(robot.legs, body.leg)), &points);
+    AddBody(body.shape, FootInSole(Nth(robot.legs, body.leg)), height, &points);
   }
   std::vector<Eigen::Vector2d> hull(2 * points.size() + 1);
   hull.resize(PlanarHull(points, hull));
   Eigen::Matrix2Xd outline(2, static_cast<Eigen::Index>(hull.size()));
   for (size_t i = 0; i < hull.size(); ++i) outline.col(static_cast<Eigen::Index>(i)) = hull[i];
   return outline;
+}
+
+}  // namespace
+
+Eigen::Matrix2Xd SoleOutline(const RobotModel& robot) { return OutlineBelow(robot, kNearFloor); }
+
+Eigen::Matrix2Xd FootOutline(const RobotModel& robot) {
+  return OutlineBelow(robot, std::numeric_limits<double>::infinity());
 }
 
 double DepthBelowSole(const RobotModel& robot, Side side) {

@@ -13,6 +13,10 @@ namespace halfstep {
 /// smaller.
 Eigen::Matrix2Xd SoleOutline(const RobotModel& robot);
 
+/// The same of all points of the feet's bodies, at whatever height: the outline of a foot from
+/// above.
+Eigen::Matrix2Xd FootOutline(const RobotModel& robot);
+
 /// How far the bodies of a leg's foot reach below its sole's plane [m]: ≤ 0 when they do not, −∞
 /// without bodies.
 double DepthBelowSole(const RobotModel& robot, Side side);

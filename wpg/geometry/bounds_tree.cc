@@ -1,4 +1,4 @@
-#include "planner/collision/bounds_tree.h"
+#include "wpg/geometry/bounds_tree.h"
 
 #include <algorithm>
 #include <numeric>

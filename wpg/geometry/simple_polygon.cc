@@ -1,4 +1,4 @@
-#include "planner/scene/simple_polygon.h"
+#include "wpg/geometry/simple_polygon.h"
 
 #include <algorithm>
 #include <cmath>
