@@ -103,9 +103,9 @@ double TorqueDrift::OfJoint(Side side, size_t joint) const {
   double couple_drift = loads_.between().norm() * (product_drift * (push + drift_.ForceDrift()) +
                                                    product * drift_.ForceDrift());
   if (loads_.rise() != 0.0) {
-    const double arm = std::hypot(loads_.between().norm(), loads_.rise());
-    const Eigen::Vector2d factor =
-        push * loads_.between() - loads_.rise() * at_m_.contact().segment<2>(3);
+    const double rise = loads_.rise();
+    const double arm = std::sqrt(loads_.between().squaredNorm() + rise * rise);
+    const Eigen::Vector2d factor = push * loads_.between() - rise * at_m_.contact().segment<2>(3);
     couple_drift = product_drift * (factor.norm() + arm * drift_.ForceDrift()) +
                    product * arm * drift_.ForceDrift();
   }
