@@ -18,7 +18,6 @@
 #include "experiments/tables/result_tables.h"
 #include "experiments/tables/run_folder.h"
 #include "experiments/tables/trajectory_match.h"
-#include "planner/ground/flat_floor.h"
 #include "smoothing/margins/not_covered_by.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/sha256.h"
@@ -82,7 +81,6 @@ ExitStatus Certify(const CertifyCommand& command) {
   ExperimentConfig config =
       LoadConfig((run / "config.yaml").string(), command.overrides, command.tools);
   const Experiment experiment = Prepare(config);
-  RequireFlatFloor(*experiment.scene.ground, "certify");
   const MarginEvaluator evaluator(experiment.robot, experiment.scene, config.smoothing.limits);
   const CertifiedFeasibility test(evaluator, config.smoothing.certification);
   const nlohmann::json manifest = ReadJsonObject(run / "manifest.json");

@@ -9,7 +9,6 @@
 #include "experiments/commands/commands.h"
 #include "experiments/replay/run_replay.h"
 #include "experiments/report/report.h"
-#include "experiments/report/report_page.h"
 #include "experiments/run/complete_manifest.h"
 #include "experiments/run/experiment_run.h"
 #include "experiments/run/infeasible_plan.h"
@@ -136,7 +135,8 @@ ExitStatus Run(const RunCommand& command) {
   } else if (!command.quiet) {
     std::cout << RunTable(run.experiment(), run.problem(), run.runs(),
                           {place, "not_covered in certificate.json"});
-    if (HasReport()) std::cout << "report:  " << (folder.path() / "report.html").string() << '\n';
+    const std::filesystem::path report = folder.path() / "report.html";
+    if (std::filesystem::exists(report)) std::cout << "report:  " << report.string() << '\n';
   }
   if (!feasible) return kFailed;
   if (interrupt.requested()) return kInterrupted;

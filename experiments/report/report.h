@@ -19,7 +19,7 @@ std::string RunReport(const RobotModel& robot, const Scene& scene,
                       const std::filesystem::path& folder, const Toolbox& tools = {});
 
 /// Writes it as report.html into a folder that has all its other files; does nothing without
-/// HasReport().
+/// HasReport(), and of uneven ground, which the page does not draw yet.
 void WriteReport(const RobotModel& robot, const Scene& scene, RunFolder* folder,
                  const Toolbox& tools = {});
 

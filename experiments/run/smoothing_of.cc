@@ -2,7 +2,6 @@
 
 #include <memory>
 
-#include "planner/ground/flat_floor.h"
 #include "smoothing/methods/solver_method_options.h"
 #include "smoothing/proof/certified_feasibility.h"
 #include "smoothing/proof/sampled_feasibility.h"
@@ -13,7 +12,6 @@ namespace {
 
 std::shared_ptr<const FeasibilityTest> TestOf(const Experiment& experiment) {
   const SmoothingConfig& config = experiment.config.smoothing;
-  RequireFlatFloor(*experiment.scene.ground, "walk");
   const MarginEvaluator evaluator(experiment.robot, experiment.scene, config.limits);
   std::shared_ptr<const FeasibilityTest> test;
   if (config.acceptance == "sampled") {

@@ -47,8 +47,7 @@ std::optional<double> BoundOf(const std::vector<MethodRun>& runs) {
 
 }  // namespace
 
-CsvFile FootstepsCsv(const HalfStepSequence& sequence) {
-  const bool has_heights = HasHeights(sequence);
+CsvColumns FootstepsColumns(bool with_heights) {
   CsvColumns columns = {
       {"footstep", kInteger, "", "0 twice: the feet at the start; then 1, 2, ..."},
       {"foot", kString, "", "left or right"},
@@ -58,10 +57,15 @@ CsvFile FootstepsCsv(const HalfStepSequence& sequence) {
       {"via_height_m", kNumber, "m", "height of the via point of the step there; 0 at the start"},
       {"duration_s", kNumber, "s", "T of each of the step's half-steps; 0 at the start"},
   };
-  if (has_heights) {
+  if (with_heights) {
     columns.insert(columns.begin() + 4, {"z_m", kNumber, "m", "height of the level there", "W"});
   }
-  CsvWriter csv(columns);
+  return columns;
+}
+
+CsvFile FootstepsCsv(const HalfStepSequence& sequence) {
+  const bool has_heights = HasHeights(sequence);
+  CsvWriter csv(FootstepsColumns(has_heights));
   const auto row = [&](int index, Side side, const Foothold& X_WF, double height, double duration) {
     csv.Cell(index).Cell(Name(side)).Cell(X_WF.x).Cell(X_WF.y);
     if (has_heights) csv.Cell(X_WF.height);

@@ -218,6 +218,7 @@ void DeclareGround(
           AddPolygon(item, surface, ground);
         }
       });
+  ground->said = surfaces.size();
 }
 
 std::shared_ptr<const Ground> MakeGround(const GroundFields& ground) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <string>
@@ -15,6 +16,7 @@ namespace halfstep {
 /// What a scene says of its ground (planner/README.md, "Levels").
 struct GroundFields {
   bool has_floor = true;               ///< z = 0 bears where nothing stands on it
+  std::size_t said = 0;                ///< items of `surfaces`
   std::vector<LevelSurface> surfaces;  ///< those of meshes are added to them
   std::vector<InputFile> files;        ///< of heightmaps
   std::vector<std::string> told;       ///< for the user, each with the surface's name in front

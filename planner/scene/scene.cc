@@ -259,7 +259,7 @@ Scene ParseScene(const std::string& yaml_path, const std::string& text) {
                         ground.surfaces.push_back(std::move(surface));
                       }
                     });
-        if (!ground.has_floor && ground.surfaces.empty()) {
+        if (!ground.has_floor && ground.said == 0 && ground.surfaces.empty()) {
           fields.Complain("floor", "none, and no surfaces (valid: surfaces, or a floor)");
         }
         fields.List("no_step", {.meaning = "areas of the floor that no sole may touch"}, &areas,
