@@ -20,6 +20,8 @@
 namespace halfstep {
 namespace {
 
+using ::testing::HasSubstr;
+
 // A scene file (and a mesh beside it) in a folder of this test's own.
 class SceneTest : public testing::Test {
  protected:
