@@ -42,7 +42,8 @@ std::vector<double> WithObstacle(std::vector<double> path, const PlayedMotion& m
 }
 
 // First and last rows of the stretches of time in which a body has to keep off an obstacle, at one
-// of their ends at least of each pair of rows: all of them, but of a foot and what its sole is above.
+// of their ends at least of each pair of rows: all of them, but of a foot and what its sole is
+// above.
 std::vector<std::pair<size_t, size_t>> Stretches(const PlayedMotion& motion,
                                                  const Distances& distances, size_t body,
                                                  size_t obstacle) {

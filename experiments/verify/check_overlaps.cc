@@ -20,9 +20,9 @@ bool SameMove(const Pose2& a, const Pose2& b) {
 
 bool Same(const FormColumns& a, const FormColumns& b) {
   return SameMove(a.footstep, b.footstep) &&
-         std::ranges::all_of(
-             kAllFormColumns,
-             [&](const FormColumn& one) { return Same(a.*one.value, b.*one.value); });
+         std::ranges::all_of(kAllFormColumns, [&](const FormColumn& one) {
+           return Same(a.*one.value, b.*one.value);
+         });
 }
 
 // What is wrong with a form, of whatever plan; "": nothing. Numbers that are not finite are out of

@@ -30,12 +30,11 @@ std::optional<WalkPlan> PlanOf(const ExperimentConfig& config, const RobotModel&
   const auto on_ground = [&](const Pose2& X_WF, const LevelChoice& on, const std::string& who) {
     if (ground.even()) return Foothold::Level(X_WF);
     const std::optional<double> only = on.name.empty() ? on.z : ground.HeightNamed(on.name);
-    const auto height = on.name.empty() || only ? ground.HeightUnder(robot, X_WF, only)
-                                                : std::nullopt;
+    const auto height =
+        on.name.empty() || only ? ground.HeightUnder(robot, X_WF, only) : std::nullopt;
     if (height) return Foothold(X_WF, *height);
     borne = false;
-    findings->Disagree("config.yaml: " + who +
-                       ": no level of the scene bears all of the sole" +
+    findings->Disagree("config.yaml: " + who + ": no level of the scene bears all of the sole" +
                        Formatted(" at x = %.6g m, y = %.6g m", X_WF.x, X_WF.y));
     return Foothold::Level(X_WF);
   };

@@ -41,8 +41,8 @@ struct WalkDynamics {
 class DescribedWalk {
  public:
   /// Precondition: as many rows as half-steps, at least one, durations > 0, each a half-step that
-  /// there can be (HalfStepMotion). `floor`: below the walk [m], −∞ where there is none; where it is
-  /// not given the plan is on one level, which is the floor.
+  /// there can be (HalfStepMotion). `floor`: below the walk [m], −∞ where there is none; where it
+  /// is not given the plan is on one level, which is the floor.
   DescribedWalk(const RobotModel& robot, const WalkPlan& planned,
                 const std::vector<HalfStepRow>& rows, const std::optional<double>& floor = {});
 

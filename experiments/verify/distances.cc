@@ -119,8 +119,8 @@ double Distances::SoleFromSolid(int side, const Eigen::Vector4d& sole, size_t ob
   double least = std::numeric_limits<double>::infinity();
   for (const Solid& part : Nth(flat_feet_, side)) {
     ++queries_;
-    least = std::min(least, Solid::Distance(part, X_WSole, obstacles_[obstacle],
-                                            Eigen::Isometry3d::Identity()));
+    least = std::min(
+        least, Solid::Distance(part, X_WSole, obstacles_[obstacle], Eigen::Isometry3d::Identity()));
   }
   return least;
 }

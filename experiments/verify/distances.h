@@ -17,9 +17,9 @@ namespace halfstep::verify {
 /// Distances of the robot's bodies from obstacles and from each other, by Solid. Obstacles are
 /// where they are said to be at a time t of the walk [s], and distances from them are less than
 /// that by how far from there they may be. All distances are less by what a tube can take from
-/// them. Solids of the ground are obstacles at rest, after those of the scene; a body on a foot need
-/// not keep off those whose top is no higher than its sole. Borrows robot and scene. Const but for
-/// the count of queries.
+/// them. Solids of the ground are obstacles at rest, after those of the scene; a body on a foot
+/// need not keep off those whose top is no higher than its sole. Borrows robot and scene. Const but
+/// for the count of queries.
 class Distances {
  public:
   /// Robot and scene are borrowed.
@@ -41,13 +41,13 @@ class Distances {
   /// Whether a body has to keep off an obstacle while the soles are at these heights [m], by
   /// Index(Side). Source: smoothing/README.md, "Solids of the ground".
   bool MustKeepOff(size_t body, size_t obstacle, const std::array<double, 2>& soles) const;
-  /// The distance of the outline of a whole foot (Index(Side)), laid flat where its sole is (x, y, z
-  /// [m], yaw), from a solid of the ground [m].
+  /// The distance of the outline of a whole foot (Index(Side)), laid flat where its sole is (x, y,
+  /// z [m], yaw), from a solid of the ground [m].
   double SoleFromSolid(int side, const Eigen::Vector4d& sole, size_t obstacle);
   /// The least of these, or something at least `enough` where none is nearer.
   double SoleFromSolids(int side, const Eigen::Vector4d& sole, double enough);
-  /// The least distance of a body from any obstacle that it has to keep off at t [m], or something at least `enough` when
-  /// none is nearer than that.
+  /// The least distance of a body from any obstacle that it has to keep off at t [m], or something
+  /// at least `enough` when none is nearer than that.
   double FromAll(size_t body, const Placement& at, double t, double enough);
   /// The obstacles that may come within `reach` [m] of a box in W at any time: all others keep
   /// more. In increasing order.

@@ -18,8 +18,8 @@ double RobotZmpMargin(const RobotModel& robot, const PlayedRow& row, const Robot
 /// both stand, a foot gets a share of the force at a ZMP of its own: shares are as the distances of
 /// the robot's ZMP from the other foot's sole and from its own, and both ZMPs are as far, and that
 /// way, from the centres of their soles. Where soles stand at different heights, the ZMP is that in
-/// the plane of each sole; infinite where it is inside both, so that nothing says which one carries.
-/// Written from wpg/README.md, "What each foot carries" and "Soles at different heights".
+/// the plane of each sole; infinite where it is inside both, so that nothing says which one
+/// carries. Written from wpg/README.md, "What each foot carries" and "Soles at different heights".
 std::array<Push, 2> FootForces(const RobotModel& robot, const PlayedRow& row,
                                const RobotMomentum& momentum);
 

@@ -72,8 +72,9 @@ Place PlaceOf(const VerifyOptions& options, const LiveConfig& config,
                       .input;
   }
   if (!place.scene.ground->OnlyLevel()) {
-    throw InputError({"verify: levels of an episode's ground are not derived here (valid: an "
-                      "episode on the flat floor)"});
+    throw InputError(
+        {"verify: levels of an episode's ground are not derived here (valid: an "
+         "episode on the flat floor)"});
   }
   place.robot =
       WithAccelerations(std::move(place.robot), experiment.smoothing.assumed_acceleration);
@@ -108,12 +109,12 @@ void CheckEpisodeWalking(const VerifyOptions& options, const EpisodeText& episod
                          const Place& place, const EpisodePromise& promise, Findings* findings) {
   const ExperimentConfig& experiment = config.experiment;
   const std::array<Pose2, 2> start = StartSoles(experiment, place.robot);
-  const EpisodeWalks all = CheckEpisodeWalks(episode,
-                                             {.robot = place.robot,
-                                              .start = {Foothold::Level(start[0]),
-                                                        Foothold::Level(start[1])},
-                                              .half_step = HalfStepOf(experiment.half_step)},
-                                             findings);
+  const EpisodeWalks all =
+      CheckEpisodeWalks(episode,
+                        {.robot = place.robot,
+                         .start = {Foothold::Level(start[0]), Foothold::Level(start[1])},
+                         .half_step = HalfStepOf(experiment.half_step)},
+                        findings);
   const std::string path = (fs::path(options.run) / "trajectory.csv").string();
   const std::vector<PlayedRow> rows = ReadTrajectory(path, ReadBytes(path), place.robot);
   if (all.walks.size() != episode.walks.size()) return;

@@ -61,12 +61,14 @@ std::vector<CertificateForgery> Forgeries() {
        "footsteps.csv:4: not the footstep of config.yaml"},
       {"TreadLower", InScene("height_m: 0.1", "height_m: 0.099"),
        "footsteps.csv:4: not the footstep of config.yaml"},
-      {"RiserNearer", InScene("[[0.14, -1], [0.7, -1], [0.7, 1], [0.14, 1]]",
-                              "[[0.135, -1], [0.7, -1], [0.7, 1], [0.135, 1]]"),
+      {"RiserNearer",
+       InScene("[[0.14, -1], [0.7, -1], [0.7, 1], [0.14, 1]]",
+               "[[0.135, -1], [0.7, -1], [0.7, 1], [0.135, 1]]"),
        "foothold: margin"},
       // The outline's heel is at x = 0.28 − 0.1072 m.
-      {"FootOverAnEdge", InScene("[[0.14, -1], [0.7, -1], [0.7, 1], [0.14, 1]]",
-                                 "[[0.19, -1], [0.7, -1], [0.7, 1], [0.19, 1]]"),
+      {"FootOverAnEdge",
+       InScene("[[0.14, -1], [0.7, -1], [0.7, 1], [0.14, 1]]",
+               "[[0.19, -1], [0.7, -1], [0.7, 1], [0.19, 1]]"),
        "config.yaml: footsteps[0]: no level of the scene bears all of the sole"},
       {"HeightOfAFootstep", Add("footsteps.csv", "z_m", 3, 1e-3),
        "footsteps.csv:4: not the footstep of config.yaml"},
@@ -105,14 +107,15 @@ INSTANTIATE_TEST_SUITE_P(Verify, ForgedLevels, testing::ValuesIn(Forgeries()),
 
 // Tiles of two heights, one of which rests on another, and a hole; the floor is below.
 Scene Tiles() {
-  return ParseScene("tiles.yaml",
-                    "surfaces:\n"
-                    "  - {name: a, polygon_m: [[0, 0], [1, 0], [1, 1], [0, 1]], height_m: 0.1}\n"
-                    "  - {name: b, polygon_m: [[1, 0], [2, 0.2], [2, 1], [1, 1]], height_m: 0.1}\n"
-                    "  - {name: c, polygon_m: [[0, 1], [0.8, 1], [0.8, 2], [0, 2]], height_m: 0.1}\n"
-                    "  - {name: d, polygon_m: [[1.2, 0.5], [1.5, 0.5], [1.5, 0.9]], height_m: 0.2,\n"
-                    "     thickness_m: 0.1}\n"
-                    "  - {name: e, polygon_m: [[0.8, 1], [2, 1], [2, 2], [0.8, 2]], height_m: 0.2}\n");
+  return ParseScene(
+      "tiles.yaml",
+      "surfaces:\n"
+      "  - {name: a, polygon_m: [[0, 0], [1, 0], [1, 1], [0, 1]], height_m: 0.1}\n"
+      "  - {name: b, polygon_m: [[1, 0], [2, 0.2], [2, 1], [1, 1]], height_m: 0.1}\n"
+      "  - {name: c, polygon_m: [[0, 1], [0.8, 1], [0.8, 2], [0, 2]], height_m: 0.1}\n"
+      "  - {name: d, polygon_m: [[1.2, 0.5], [1.5, 0.5], [1.5, 0.9]], height_m: 0.2,\n"
+      "     thickness_m: 0.1}\n"
+      "  - {name: e, polygon_m: [[0.8, 1], [2, 1], [2, 2], [0.8, 2]], height_m: 0.2}\n");
 }
 
 TEST(LevelTops, AreTheLevelsOfThePlanner) {
@@ -152,7 +155,7 @@ TEST(LevelTops, KnowNamesAndWhatRestsOnALevel) {
   EXPECT_EQ(levels.HeightNamed("f"), std::nullopt);
   EXPECT_EQ(levels.Inside(robot, {1.4, 0.7, 0}, 0.1), -1);  // d is there
   EXPECT_EQ(levels.Inside(robot, {0.5, 0.5, 0}, 0.15), -1);
-  EXPECT_GT(levels.Inside(robot, {0.5, 0.9, 0}, 0.1), 0.2);  // across an edge that a and c share
+  EXPECT_GT(levels.Inside(robot, {0.5, 0.9, 0}, 0.1), 0.1);  // across an edge that a and c share
 }
 
 // A foot's bodies may touch what their sole is above, and nothing else.
