@@ -20,9 +20,9 @@ double Bulge(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Ve
 }  // namespace
 
 Eigen::Matrix2Xd CornersOf(const Eigen::Matrix2Xd& polygon) {
+  const Eigen::Matrix2Xd rounded = WholeNanometres(polygon);
   std::vector<Eigen::Vector2d> corners;
-  for (const Eigen::Vector2d& corner : WholeNanometres(polygon).colwise())
-    corners.push_back(corner);
+  for (const Eigen::Vector2d& corner : rounded.colwise()) corners.push_back(corner);
   for (size_t i = 0; i < corners.size() && corners.size() > 3;) {
     const size_t n = corners.size();
     const Eigen::Vector2d &before = corners[(i + n - 1) % n], &after = corners[(i + 1) % n];
