@@ -23,9 +23,9 @@ using Table = TamperedRun::Table;
 const TamperedWalk kOntoPlatform = {
     .config = "platform_15cm",
     .overrides = {"scene=../scenes/platform_10cm.yaml",
-                  "footsteps=[{foot: right, x_m: 0.28, y_m: -0.105}, "
-                  "{foot: left, x_m: 0.28, y_m: 0.105}]",
-                  "output.period_s=0.02"}};
+                  "footsteps=[{foot: right, x_m: 0.27, y_m: -0.105}, "
+                  "{foot: left, x_m: 0.27, y_m: 0.105}]",
+                  "half_step.crouch_m=0.02", "half_step.lift_share=0.9", "output.period_s=0.02"}};
 
 TEST(VerifyLevels, AWalkOntoAPlatformIsVerified) {
   const TamperedRun run(kOntoPlatform);
@@ -65,10 +65,10 @@ std::vector<CertificateForgery> Forgeries() {
        InScene("[[0.14, -1], [0.7, -1], [0.7, 1], [0.14, 1]]",
                "[[0.135, -1], [0.7, -1], [0.7, 1], [0.135, 1]]"),
        "foothold: margin"},
-      // The outline's heel is at x = 0.28 − 0.1072 m.
+      // The outline reaches back to x = 0.149 m.
       {"FootOverAnEdge",
        InScene("[[0.14, -1], [0.7, -1], [0.7, 1], [0.14, 1]]",
-               "[[0.19, -1], [0.7, -1], [0.7, 1], [0.19, 1]]"),
+               "[[0.15, -1], [0.7, -1], [0.7, 1], [0.15, 1]]"),
        "config.yaml: footsteps[0]: no level of the scene bears all of the sole"},
       {"HeightOfAFootstep", Add("footsteps.csv", "z_m", 3, 1e-3),
        "footsteps.csv:4: not the footstep of config.yaml"},
