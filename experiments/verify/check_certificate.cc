@@ -14,7 +14,7 @@ namespace {
 // What a certificate says of a walk that it is about.
 constexpr char kCertified[] = "every demanded margin is kept at all times";
 
-long CountOf(Family family, const RobotModel& robot) {
+long CountOf(Family family, const RobotModel& robot, const Ground& ground) {
   switch (family) {
     case kReach:
     case kNoStep:
@@ -24,13 +24,16 @@ long CountOf(Family family, const RobotModel& robot) {
     case kTorque:
       return std::ssize(robot.legs[0].joints) + std::ssize(robot.legs[1].joints);
     case kJointAcceleration:
-      return LimitsAccelerations(robot) ? CountOf(kJoint, robot) : 0;
+      return LimitsAccelerations(robot) ? CountOf(kJoint, robot, ground) : 0;
     case kSelfClearance:
       return std::ssize(robot.self_pairs);
     case kClearance:
     case kGround:
       return std::ssize(robot.bodies);
-    case kFloor:
+    case kFoothold:
+      return ground.OnlyLevel() ? 0 : std::ssize(robot.legs);
+    case kFloor:  // the floor, and what stands out of it
+      return ground.Solids().empty() ? 1 : 2;
     case kFootSpeed:
     case kFootYawRate:
     case kZmp:
@@ -39,7 +42,6 @@ long CountOf(Family family, const RobotModel& robot) {
       return 1;
     case kDoubleSupport:
     case kLandingSpeed:
-    case kFoothold:  // not derived here yet: uneven ground is refused
     case kOwn:
       break;
   }
@@ -47,10 +49,11 @@ long CountOf(Family family, const RobotModel& robot) {
 }
 
 // Of families that are there on request; of one that is not known here what the certificate says.
-long CountOf(Family family, const RobotModel& robot, const CertificateText& certificate) {
+long CountOf(Family family, const RobotModel& robot, const Ground& ground,
+             const CertificateText& certificate) {
   if (family == kDoubleSupport) return certificate.demanded[kDoubleSupport] != kNotDemanded;
   if (family == kLandingSpeed) return certificate.landing_speed.has_value();
-  return family == kOwn ? certificate.statements[kOwn] : CountOf(family, robot);
+  return family == kOwn ? certificate.statements[kOwn] : CountOf(family, robot, ground);
 }
 
 // What is wrong with a row by itself; "": nothing.
@@ -167,7 +170,7 @@ void CheckArithmetic(const CertificateText& certificate, const std::vector<Claim
       (rows.empty() ? "" : Formatted(", least to spare %.3g (%s)", smallest, where.c_str())));
   std::string counts;
   for (size_t f = 0; f < kNumFamilies; ++f) {
-    const long count = CountOf(static_cast<Family>(f), robot, certificate);
+    const long count = CountOf(static_cast<Family>(f), robot, *scene.ground, certificate);
     if (!MayBeAbsent(static_cast<Family>(f)) || count > 0) {
       counts += std::string(f == 0 ? "" : ", ") + kFamilyNames[f] + " " + std::to_string(count);
     }
@@ -194,6 +197,8 @@ void CheckAgainstConfig(const CertificateText& certificate, const RobotModel& ro
     const std::optional<Family> family = FamilyNamed(of_config.family, findings);
     if (!family || (family == kJointAcceleration && !LimitsAccelerations(robot))) continue;
     if (family == kLandingSpeed && !config.landing_speed) continue;
+    // Whether it has to be there is asked of the scene (CheckArithmetic).
+    if (family == kFoothold && certificate.statements[kFoothold] == 0) continue;
     const double claimed = certificate.demanded[*family];
     if (claimed < of_config.demanded) {
       findings->Disagree(Formatted("%s: the certificate demands %.9g, config.yaml %.9g",

@@ -33,7 +33,7 @@ void CheckChosen(const std::string& method, const std::vector<HalfStepRow>& half
   for (size_t i = 0; i < half_steps.size(); ++i) {
     const HalfStep& plan = planned.half_steps[i].half_step;
     const FormColumns is = half_steps[i].FormOf(plan), as_planned = plan.form;
-    for (const FormColumn& form : kFormColumns) {
+    for (const FormColumn& form : kAllFormColumns) {
       if (choice.moves(form.key)) continue;
       look(i, form.key, form.name, form.of_step() ? i / 2 : i, is.*form.value,
            as_planned.*form.value);

@@ -9,6 +9,7 @@
 #include "experiments/verify/double_support.h"
 #include "experiments/verify/floor_distances.h"
 #include "experiments/verify/joint_accelerations.h"
+#include "experiments/verify/level_tops.h"
 #include "experiments/verify/recent_instants.h"
 #include "experiments/verify/tolerances.h"
 #include "wpg/files/text.h"
@@ -26,6 +27,7 @@ class Claims {
         distances_(*distances),
         near_(robot_),
         subjects_(robot_, *distances),
+        levels_(distances->scene()),
         recent_(walk) {}
 
   // What is wrong with a row; "": nothing.
@@ -44,6 +46,7 @@ class Claims {
         return IsOfDynamics(row.family) ? "the robot has a ZMP" : "the robot has limits";
       }
       if (row.family == kGround || row.family == kNoStep) return FaultOfNothing(row);
+      if (row.family == kFoothold) return "a foot stands, and it does so on a level";
       const std::string fault = FaultOfUnwatched(row);
       return fault.empty() && subject.first >= 0 && IsOfSwingFoot(row.family)
                  ? "a foot is named, and none has a margin"
@@ -60,6 +63,8 @@ class Claims {
       }
     }
     if (row.family == kNoStep && subject.second < 0) return "no area is named";
+    if (row.family == kFoothold && levels_.even()) return "the ground has one level";
+    if (row.family == kFloor && subject.second >= 0) return FaultOfSolid(row, subject);
     return FaultOfScalar(row, subject);
   }
 
@@ -111,7 +116,8 @@ class Claims {
     if (row.family == kNoStep) {
       return distances_.scene().no_step.empty() ? "" : "a foot stands, and there are areas";
     }
-    return std::all_of(robot_.bodies.begin(), robot_.bodies.end(), IsOnFoot)
+    return std::isinf(walk_.floor().Above(0)) ||  // there is no floor
+                   std::all_of(robot_.bodies.begin(), robot_.bodies.end(), IsOnFoot)
                ? ""
                : "bodies have a height";
   }
@@ -131,7 +137,7 @@ class Claims {
       case kLandingSpeed: {
         const WalkInstant at = walk_.At(t);
         return LandingLimit(certificate_.landing_speed.value_or(kNoLimit),
-                            walk_.floor().Above(at.value[foot + 2])) +
+                            at.value[foot + 2] - walk_.LandingHeight(t, s.first)) +
                at.first[foot + 2];
       }
       case kZmp:
@@ -164,14 +170,48 @@ class Claims {
                    ? FromArea(robot_, row.X_WS(s.first), Nth(distances_.scene().no_step, s.second))
                    : kNoLimit;
       }
+      case kFoothold:
+        return LeastInside(recent_.Row(t));
       case kSelfClearance:
       case kClearance:
       case kDoubleSupport:
-      case kFoothold:
       case kOwn:
         break;
     }
     return std::nan("");
+  }
+
+  // How far inside its level the sole lies that does so least of those that stand [m].
+  double LeastInside(const PlayedRow& row) const {
+    double least = kNoLimit;
+    for (const int side : {0, 1}) {
+      if (!row.Stands(side)) continue;
+      const double z = Nth(row.soles, side)[2];
+      least = std::min(least, levels_.Inside(robot_, row.X_WS(side), z));
+    }
+    return least;
+  }
+
+  // Of a foot's distance from a solid of the ground: that is at least as stated.
+  std::string FaultOfSolid(const ClaimRow& row, ClaimSubject subject) {
+    const std::array<double, 5> instants = Instants(row);
+    for (const double t : {instants[0], instants[1], instants[4]}) {
+      const Eigen::Vector4d sole = walk_.At(t).value.segment<4>(SoleX(subject.first));
+      const double least = t == instants[0] ? row.margin : row.margin - row.bound;
+      const double there =
+          distances_.SoleFromSolid(subject.first, sole, static_cast<size_t>(subject.second));
+      if (!(there >= least - near_.distance)) {
+        return Formatted("%s at t = %.6g s is %.9g, below %.9g − %.9g", row.subject.c_str(), t,
+                         there, row.margin, t == instants[0] ? 0.0 : row.bound);
+      }
+    }
+    return "";
+  }
+
+  // Whether the program's margin may be less than the height: distances from solids of the ground
+  // are cut off.
+  bool MayBeCutOff(const ClaimRow& row) const {
+    return row.family == kFloor && !distances_.scene().ground->Solids().empty();
   }
 
   std::string FaultOfScalar(const ClaimRow& row, ClaimSubject subject) {
@@ -183,7 +223,8 @@ class Claims {
                                                                : near_.claim;
     const std::array<double, 5> instants = Instants(row);
     const double middle = Scalar(row.family, subject, instants[0]);
-    if (!(std::abs(middle - row.margin) <= rounding)) {
+    if (!(std::abs(middle - row.margin) <= rounding) &&
+        !(MayBeCutOff(row) && middle >= row.margin)) {
       return Formatted("margin %.9g, but %.9g by the walk", row.margin, middle);
     }
     for (size_t k = 1; k < instants.size(); ++k) {
@@ -252,6 +293,7 @@ class Claims {
   Distances& distances_;
   const Tolerances near_;
   const ClaimSubjects subjects_;
+  const LevelTops levels_;
   RecentInstants recent_;
 };
 

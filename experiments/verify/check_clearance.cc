@@ -1,8 +1,10 @@
 #include "experiments/verify/check_clearance.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 namespace halfstep::verify {
 namespace {
@@ -37,6 +39,26 @@ std::vector<double> WithObstacle(std::vector<double> path, const PlayedMotion& m
     path[i] += way;
   }
   return path;
+}
+
+// First and last rows of the stretches of time in which a body has to keep off an obstacle, at one
+// of their ends at least of each pair of rows: all of them, but of a foot and what its sole is
+// above.
+std::vector<std::pair<size_t, size_t>> Stretches(const PlayedMotion& motion,
+                                                 const Distances& distances, size_t body,
+                                                 size_t obstacle) {
+  const std::vector<PlayedRow>& rows = motion.rows();
+  std::vector<std::pair<size_t, size_t>> stretches;
+  for (size_t i = 0; i + 1 < rows.size(); ++i) {
+    std::array<double, 2> lower{};
+    for (size_t side = 0; side < 2; ++side) {
+      lower[side] = std::min(rows[i].soles[side][2], rows[i + 1].soles[side][2]);
+    }
+    if (!distances.MustKeepOff(body, obstacle, lower)) continue;
+    if (stretches.empty() || stretches.back().second != i) stretches.emplace_back(i, i);
+    stretches.back().second = i + 1;
+  }
+  return stretches;
 }
 
 // Keeps one pair of bodies apart over all time; false: not shown. With d the distance at the
@@ -95,12 +117,24 @@ void CheckClearances(const PlayedMotion& motion, const CertificateText& certific
       everywhere.extend(Eigen::AlignedBox3d(here.min() - around, here.max() + around));
     }
     for (const size_t o : distances->Near(everywhere, obstacles.required() + kQuick)) {
-      Keep(
-          WithObstacle(of_body, motion, *distances, o), motion, distances->NameOfObstaclePair(b, o),
-          [&](const Placement& at, double t, double enough) {
-            return distances->FromObstacle(b, o, at, t, enough);
-          },
-          &obstacles);
+      const auto distance = [&](const Placement& at, double t, double enough) {
+        return distances->FromObstacle(b, o, at, t, enough);
+      };
+      const std::string name = distances->NameOfObstaclePair(b, o);
+      const std::vector<double> path = WithObstacle(of_body, motion, *distances, o);
+      for (const auto& [first, last] : Stretches(motion, *distances, b, o)) {
+        if (first == 0 && last + 1 == motion.rows().size()) {
+          Keep(path, motion, name, distance, &obstacles);
+          continue;
+        }
+        const auto part = [&](const auto& of) {
+          return std::vector(of.begin() + first, of.begin() + last + 1);
+        };
+        const std::vector<PlayedRow> rows = part(motion.rows());
+        std::vector<double> way = part(path);
+        for (double& length : way) length -= path[first];
+        Keep(way, PlayedMotion(robot, rows), name, distance, &obstacles);
+      }
     }
   }
   obstacles.Conclude(findings);

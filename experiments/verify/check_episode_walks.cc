@@ -33,7 +33,6 @@ WalkPlan PlanOf(const std::vector<FootstepRow>& rows, const EpisodeWalkFrame& fr
     findings->Disagree(path + ": no footstep");
     return none;
   }
-  const FlatFloor floor(none);
   std::vector<PlannedFootstep> footsteps;
   for (size_t i = 0; i < rows.size(); ++i) {
     const FootstepRow& row = rows[i];
@@ -48,7 +47,8 @@ WalkPlan PlanOf(const std::vector<FootstepRow>& rows, const EpisodeWalkFrame& fr
       return none;
     }
     if (i >= 2) {
-      footsteps.push_back({side, floor.Sole(row.X_WF), row.via_height, row.duration});
+      footsteps.push_back(
+          {side, Foothold(row.X_WF, frame.start[0].height), row.via_height, row.duration});
     } else if (static_cast<size_t>(Index(side)) != i || !Near(row.X_WF, frame.start[i].Planar())) {
       findings->Disagree(line + "the walk does not start where config.yaml says");
     } else if (!Near(row.via_height, 0) || !Near(row.duration, 0)) {

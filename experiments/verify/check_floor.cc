@@ -7,7 +7,7 @@
 #include "experiments/verify/tolerances.h"
 
 namespace halfstep::verify {
-void CheckFloor(const PlayedMotion& motion, const FlatFloor& floor, const Scene& scene,
+void CheckFloor(const PlayedMotion& motion, const WalkFloor& floor, const Scene& scene,
                 const CertificateText& certificate, double tolerance, Findings* findings) {
   const RobotModel& robot = motion.robot();
   const std::vector<PlayedRow>& rows = motion.rows();

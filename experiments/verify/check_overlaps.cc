@@ -20,15 +20,16 @@ bool SameMove(const Pose2& a, const Pose2& b) {
 
 bool Same(const FormColumns& a, const FormColumns& b) {
   return SameMove(a.footstep, b.footstep) &&
-         std::ranges::all_of(
-             kFormColumns, [&](const FormColumn& one) { return Same(a.*one.value, b.*one.value); });
+         std::ranges::all_of(kAllFormColumns, [&](const FormColumn& one) {
+           return Same(a.*one.value, b.*one.value);
+         });
 }
 
 // What is wrong with a form, of whatever plan; "": nothing. Numbers that are not finite are out of
 // every range.
 std::string FaultOfForm(const FormColumns& form) {
   const auto within = [](double x, double least, double most) { return x >= least && x <= most; };
-  for (const FormColumn& one : kFormColumns) {
+  for (const FormColumn& one : kAllFormColumns) {
     const double value = form.*one.value;
     if (within(value, one.least, one.most)) continue;
     return one.before + Formatted("%.9g", value) + one.after;
@@ -78,8 +79,8 @@ std::string FaultOf(const OverlapRow& row, const HalfStepRow& before, const Half
 
 // The column of a form; null: the parameter is none.
 const FormColumn* FormNamed(const std::string& parameter) {
-  const auto* found = std::ranges::find(kFormColumns, parameter, &FormColumn::name);
-  return found != kFormColumns.end() ? found : nullptr;
+  const auto* found = std::ranges::find(kAllFormColumns, parameter, &FormColumn::name);
+  return found != kAllFormColumns.end() ? found : nullptr;
 }
 
 // The number of a footstep's move that a parameter is.
@@ -101,6 +102,10 @@ std::string FaultOfHalfStep(const HalfStepRow& row, const HalfStep& planned) {
   }
   if (!(row.duration > 0)) return Formatted("duration %.9g", row.duration);
   if (!(row.height_scale >= 0)) return Formatted("height scale %.9g", row.height_scale);
+  if (row.height_scale * planned.via_height < planned.X_SF.height - kTwiceRounding) {
+    return Formatted("height scale %.9g, with which the foot passes lower than it stands",
+                     row.height_scale);
+  }
   return row.form ? FaultOfForm(*row.form) : "";
 }
 

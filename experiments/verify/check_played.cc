@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "experiments/verify/check_clearance.h"
+#include "experiments/verify/check_levels.h"
 #include "experiments/verify/check_rows.h"
 #include "experiments/verify/check_walk.h"
 #include "experiments/verify/double_support.h"
@@ -16,10 +17,11 @@ void CheckPlayed(const PlayedMotion& motion, const DescribedWalk& walk,
                  Findings* findings) {
   const auto check = [&](const PlayedMotion& of, Findings* into) {
     CheckRowMargins(of, walk.floor(), certificate, tolerance, into);
-    CheckLanding(of, walk.floor(), certificate, into);
+    CheckLanding(of, walk, certificate, into);
     CheckDynamics(of.rows(), walk, distances->scene().friction, certificate, into);
     CheckJointAccelerations(of.rows(), walk, certificate, into);
     CheckFloor(of, walk.floor(), distances->scene(), certificate, tolerance, into);
+    CheckLevels(of, certificate, tolerance, distances, into);
     CheckClearances(of, certificate, tolerance, distances, into);
   };
   CheckDoubleSupport(walk, certificate, findings);

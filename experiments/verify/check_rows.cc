@@ -65,11 +65,12 @@ double FootYawRate(const PlayedMotion& motion, size_t i, int side) {
   return std::abs(b.soles[Of(side)][3] - a.soles[Of(side)][3]) / (b.t - a.t);
 }
 
-double LandingMargin(const PlayedMotion& motion, size_t i, int side, const FlatFloor& floor,
+double LandingMargin(const PlayedMotion& motion, size_t i, int side, const DescribedWalk& walk,
                      double limit) {
   const PlayedRow &a = motion.rows()[i], &b = motion.rows()[i + 1];
   const double from = a.soles[Of(side)][2], to = b.soles[Of(side)][2];
-  return LandingLimit(limit, floor.Above(std::max(from, to))) - (from - to) / (b.t - a.t);
+  const double above = std::max(from, to) - walk.LandingHeight(0.5 * (a.t + b.t), side);
+  return LandingLimit(limit, above) - (from - to) / (b.t - a.t);
 }
 
 SolePolygon PolygonOf(const PlayedRow& row, const RobotModel& robot) {
@@ -114,7 +115,7 @@ void CheckConsistency(const PlayedMotion& motion, const DescribedWalk& walk, Fin
   const RobotModel& robot = motion.robot();
   const std::vector<PlayedRow>& rows = motion.rows();
   const Tolerances near(robot);
-  const double k = robot.com_height / kGravity;  // z_c/g
+  const double k = walk.pendulum_height() / kGravity;  // z_c/g
   Check soles("soles by forward kinematics", "m or rad", 0, near.sole);
   Check waist("waist under the CoM", "m", 0, near.sole);
   Check pendulum("pendulum", "m", 0, near.pendulum);
@@ -135,7 +136,11 @@ void CheckConsistency(const PlayedMotion& motion, const DescribedWalk& walk, Fin
       const auto where = [&] { return std::string(SideName(side)) + " foot " + At(row.t); };
       soles.Add(-std::max(apart, turned), where);
       if (!row.Stands(side)) continue;
-      standing.Add(-std::abs(walk.floor().Above(row.soles[Of(side)][2])), where);
+      // Support and the walk's own may change within rounding of each other.
+      const double z = row.soles[Of(side)][2];
+      standing.Add(-std::min(std::abs(z - walk.FootholdHeight(row.t - near.inside, side)),
+                             std::abs(z - walk.FootholdHeight(row.t + near.inside, side))),
+                   where);
       if (i > 0 && rows[i - 1].Stands(side)) {
         const Eigen::Vector4d slid = row.soles[Of(side)] - rows[i - 1].soles[Of(side)];
         standing.Add(-slid.cwiseAbs().maxCoeff(), where);
@@ -143,9 +148,10 @@ void CheckConsistency(const PlayedMotion& motion, const DescribedWalk& walk, Fin
     }
     const Eigen::Vector2d forward(std::cos(row.waist[3]), std::sin(row.waist[3]));
     const Eigen::Vector2d under = row.com.head<2>() - robot.com_x_B * forward;
+    const double lift = walk.At(row.t).value[kWaistZ];
     waist.Add(-std::max({(row.waist.head<2>() - under).norm(),
-                         std::abs(row.waist[2] - robot.waist_height),
-                         std::abs(row.com.z() - robot.com_height)}),
+                         std::abs(row.waist[2] - (robot.waist_height + lift)),
+                         std::abs(row.com.z() - (robot.com_height + lift))}),
               here);
     const Eigen::Vector2d residual = k * row.com_acceleration - row.com.head<2>() + row.zmp;
     pendulum.Add(-residual.norm(), here);
@@ -171,7 +177,7 @@ void CheckConsistency(const PlayedMotion& motion, const DescribedWalk& walk, Fin
   }
 }
 
-void CheckRowMargins(const PlayedMotion& motion, const FlatFloor& floor,
+void CheckRowMargins(const PlayedMotion& motion, const WalkFloor& floor,
                      const CertificateText& certificate, double tolerance, Findings* findings) {
   const RobotModel& robot = motion.robot();
   const std::vector<PlayedRow>& rows = motion.rows();
@@ -230,7 +236,7 @@ void CheckRowMargins(const PlayedMotion& motion, const FlatFloor& floor,
   }
 }
 
-void CheckLanding(const PlayedMotion& motion, const FlatFloor& floor,
+void CheckLanding(const PlayedMotion& motion, const DescribedWalk& walk,
                   const CertificateText& certificate, Findings* findings) {
   if (!certificate.landing_speed) return;
   const std::vector<PlayedRow>& rows = motion.rows();
@@ -239,7 +245,7 @@ void CheckLanding(const PlayedMotion& motion, const FlatFloor& floor,
   for (size_t i = 0; i + 1 < rows.size(); ++i) {
     const double rounding = 1e-12 / (rows[i + 1].t - rows[i].t);
     for (int side = 0; side < 2; ++side) {
-      landing.Add(rounding + LandingMargin(motion, i, side, floor, *certificate.landing_speed),
+      landing.Add(rounding + LandingMargin(motion, i, side, walk, *certificate.landing_speed),
                   [&] { return std::string(SideName(side)) + " leg " + At(rows[i].t); });
     }
   }

@@ -20,8 +20,9 @@ inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 bool CheckIsMotion(const std::vector<PlayedRow>& rows, Findings* findings);
 
 /// Whether the rows agree with each other, whoever made them: soles are where forward kinematics
-/// puts them, the CoM is rigid with the waist, CoM and ZMP satisfy the linear inverted pendulum,
-/// and standing feet are on the floor and at rest. Differences of c and ċ must agree with ċ and c̈
+/// puts them, the CoM is rigid with the waist, which is as high as the walk has it, CoM and ZMP
+/// satisfy the linear inverted pendulum, and standing feet are at the height of their footsteps and
+/// at rest. Differences of c and ċ must agree with ċ and c̈
 /// by the trapezoidal rule, within its error: with M a bound of |c⃜| between two rows h apart (from
 /// `walk`), M h²/12 for c̈, and |c⃛| h²/12 for ċ with |c⃛| ≤ |Δc̈|/h + M h.
 /// Source: the rule's remainder, −h³ f″/12; wpg/README.md, "Rest to rest", for M.
@@ -30,10 +31,10 @@ void CheckConsistency(const PlayedMotion& motion, const DescribedWalk& walk, Fin
 /// Whether the rows keep what `certificate` demands of joint limits and speeds, reach, foot speed
 /// and yaw rate, the height of a moving sole above the floor and the ZMP. `tolerance` [m]:
 /// VerifyOptions.
-void CheckRowMargins(const PlayedMotion& motion, const FlatFloor& floor,
+void CheckRowMargins(const PlayedMotion& motion, const WalkFloor& floor,
                      const CertificateText& certificate, double tolerance, Findings* findings);
-/// The same of how fast soles sink near the floor; nothing is said where there is no limit.
-void CheckLanding(const PlayedMotion& motion, const FlatFloor& floor,
+/// The same of how fast soles sink near where they land; nothing is said where there is no limit.
+void CheckLanding(const PlayedMotion& motion, const DescribedWalk& walk,
                   const CertificateText& certificate, Findings* findings);
 
 /// Whether the whole robot's ZMP, its joint torques and the friction that it needs (WalkDynamics)
@@ -45,7 +46,7 @@ void CheckDynamics(const std::vector<PlayedRow>& rows, const DescribedWalk& walk
 /// Whether bodies stay above the floor, those on a foot at each row and all others at and between
 /// rows, and whether standing soles keep off the no-step areas of the scene. `tolerance` [m] is
 /// granted to the bodies that are not on a foot.
-void CheckFloor(const PlayedMotion& motion, const FlatFloor& floor, const Scene& scene,
+void CheckFloor(const PlayedMotion& motion, const WalkFloor& floor, const Scene& scene,
                 const CertificateText& certificate, double tolerance, Findings* findings);
 
 /// What supports the robot at a row.
@@ -70,8 +71,9 @@ double FootYawRate(const PlayedMotion& motion, size_t i, int side);
 inline double LandingLimit(double limit, double height) {
   return limit * std::max(1.0, height / 0.01);
 }
-/// That at the higher one of row i and the next, less how fast the sole sinks between them [m/s].
-double LandingMargin(const PlayedMotion& motion, size_t i, int side, const FlatFloor& floor,
+/// That at the higher one of row i and the next above where it lands by the walk, less how fast the
+/// sole sinks between them [m/s].
+double LandingMargin(const PlayedMotion& motion, size_t i, int side, const DescribedWalk& walk,
                      double limit);
 /// Whether a sole moves horizontally or turns between row i and the next one.
 bool MovesHorizontally(const PlayedMotion& motion, size_t i, int side);

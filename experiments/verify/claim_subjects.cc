@@ -25,8 +25,8 @@ ClaimSubjects::ClaimSubjects(const RobotModel& robot, const Distances& distances
   auto& subjects = subjects_;
   for (int s = 0; s < 2; ++s) {
     const std::string side = s == 0 ? "left" : "right";
-    for (Family f : {kFloor, kFootSpeed, kFootYawRate, kLandingSpeed}) {
-      subjects[f][side + " foot"] = {s, 0};
+    for (Family f : {kFloor, kFootSpeed, kFootYawRate, kLandingSpeed, kFoothold}) {
+      subjects[f][side + " foot"] = {s, -1};
     }
     subjects[kReach][side + " leg"] = {s, 0};
     for (int j = 0; j < 6; ++j) {
@@ -54,8 +54,10 @@ ClaimSubjects::ClaimSubjects(const RobotModel& robot, const Distances& distances
     subjects[kGround][robot.bodies[b].name] = {body, 0};
     bodies_.push_back(robot.bodies[b].name);
   }
-  int index = 0;
-  for (const Obstacle& obstacle : distances.scene().obstacles) obstacles_[obstacle.name] = index++;
+  num_of_scene_ = static_cast<int>(distances.scene().obstacles.size());
+  for (int i = 0; i < static_cast<int>(distances.num_obstacles()); ++i) {
+    obstacles_[distances.scene().NameOf(i)] = i;
+  }
   for (const auto& [a, b] : robot.self_pairs) {
     subjects[kSelfClearance][distances.NameOfPair(static_cast<size_t>(a), static_cast<size_t>(b))] =
         {a, b};
@@ -66,12 +68,16 @@ std::optional<ClaimSubject> ClaimSubjects::Find(Family family, const std::string
   const auto found = subjects_[family].find(name);
   if (found != subjects_[family].end()) return found->second;
   if (family == kDoubleSupport) return HalfStepNamed(name);
-  if (family != kClearance) return std::nullopt;
-  for (size_t b = 0; b < bodies_.size(); ++b) {
-    const std::string before = bodies_[b] + " - ";
+  const bool of_foot = family == kFloor || family == kFoothold;
+  if (family != kClearance && !of_foot) return std::nullopt;
+  const std::vector<std::string> feet = {"left foot", "right foot"};
+  const std::vector<std::string>& firsts = of_foot ? feet : bodies_;
+  for (size_t b = 0; b < firsts.size(); ++b) {
+    const std::string before = firsts[b] + " - ";
     if (!name.starts_with(before)) continue;
     const auto obstacle = obstacles_.find(name.substr(before.size()));
-    if (obstacle != obstacles_.end()) return ClaimSubject{static_cast<int>(b), obstacle->second};
+    if (obstacle == obstacles_.end() || (of_foot && obstacle->second < num_of_scene_)) continue;
+    return ClaimSubject{static_cast<int>(b), obstacle->second};
   }
   return std::nullopt;
 }

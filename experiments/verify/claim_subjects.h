@@ -12,8 +12,8 @@
 
 namespace halfstep::verify {
 
-/// What a row of a certificate is about, as indices: a side; a side and a joint; a body and an
-/// obstacle; two bodies; a foot and an area; a half-step. −1: the row names none.
+/// What a row of a certificate is about, as indices: a side; a side and a joint; a body, or a
+/// foot, and an obstacle; two bodies; a foot and an area; a half-step. −1: the row names none.
 struct ClaimSubject {
   int first = -1, second = -1;  ///< −1: none
 };
@@ -29,9 +29,10 @@ class ClaimSubjects {
 
  private:
   std::array<std::map<std::string, ClaimSubject>, kNumFamilies> subjects_;
-  // A body and an obstacle, "BODY - OBSTACLE": too many pairs to list.
+  // A body or a foot and an obstacle, "BODY - OBSTACLE": too many pairs to list.
   std::vector<std::string> bodies_;
   std::map<std::string, int> obstacles_;
+  int num_of_scene_ = 0;  // obstacles; solids of the ground come after these
 };
 
 }  // namespace halfstep::verify

@@ -15,8 +15,12 @@
 namespace halfstep::verify {
 
 DescribedWalk::DescribedWalk(const RobotModel& robot, const WalkPlan& planned,
-                             const std::vector<HalfStepRow>& rows)
-    : robot_(robot), floor_(planned) {
+                             const std::vector<HalfStepRow>& rows,
+                             const std::optional<double>& floor)
+    : robot_(robot),
+      floor_(floor ? WalkFloor(*floor) : WalkFloor(planned)),
+      crouch_(planned.half_steps.empty() ? 0 : planned.half_steps.front().half_step.crouch),
+      start_heights_{planned.start[0].height, planned.start[1].height} {
   HALFSTEP_CHECK(!rows.empty() && rows.size() == planned.half_steps.size(),
                  rows.size() << " rows, " << planned.half_steps.size() << " half-steps");
   std::vector<Pose2> moves;
@@ -30,7 +34,7 @@ DescribedWalk::DescribedWalk(const RobotModel& robot, const WalkPlan& planned,
     half_step.via_height *= rows[i].height_scale;
     half_step.support_point = rows[i].support_point;
     half_step.form = rows[i].FormOf(half_step);
-    pieces_.push_back({{plan.half_steps[i], PendulumRate(robot)}, rows[i].start});
+    pieces_.push_back({{plan.half_steps[i], PendulumRate(robot, crouch_)}, rows[i].start});
   }
   Guide(0.0);
 }
@@ -110,6 +114,24 @@ bool DescribedWalk::MovesHorizontally(double t, int side) const {
          (Local(t, down) <= pieces_[down].motion.foot_end() || rises);
 }
 
+double DescribedWalk::FootholdHeight(double t, int side) const {
+  double height = Nth(start_heights_, side);
+  for (size_t up = 0; up < pieces_.size() && HasLanded(t, up); up += 2) {
+    const HalfStepMotion& motion = pieces_[up + 1].motion;
+    if (Index(motion.half_step().swing()) == side) height = motion.FootstepHeight();
+  }
+  return height;
+}
+
+double DescribedWalk::LandingHeight(double t, int side) const {
+  const int step = StepInAir(t);
+  if (step < 0) return FootholdHeight(t, side);
+  const size_t up = 2 * static_cast<size_t>(step), last = std::min(up + 1, pieces_.size() - 1);
+  const HalfStepMotion& motion = pieces_[last].motion;
+  return Index(motion.half_step().swing()) == side ? motion.FootstepHeight()
+                                                   : FootholdHeight(t, side);
+}
+
 PlayedRow DescribedWalk::Row(double t) const {
   const WalkInstant at = At(t);
   const std::array<Vector6d, 2> near = NearAngles(t);
@@ -118,7 +140,7 @@ PlayedRow DescribedWalk::Row(double t) const {
   row.t = t;
   row.half_step = HalfStepAt(t);
   row.support = SupportAt(t);
-  row.com << at.value.segment<2>(kComX), robot_.com_height;
+  row.com << at.value.segment<2>(kComX), robot_.com_height + at.value[kWaistZ];
   row.com_velocity = at.first.segment<2>(kComX);
   row.com_acceleration = at.second.segment<2>(kComX);
   row.zmp = at.value.segment<2>(kZmpX);
@@ -141,11 +163,10 @@ WalkDynamics DescribedWalk::DynamicsAt(double t) const {
   WalkDynamics dynamics;
   const auto momentum = RobotMomentum::Of(robot_, At(t), NearAngles(t));
   if (!momentum) return dynamics;
-  PlayedRow row = Row(t);
-  row.zmp = momentum->Zmp(floor_);
-  dynamics.zmp = ZmpMargin(row, robot_);
-  dynamics.torques = JointTorques(robot_, row, *momentum, floor_);
-  dynamics.friction = FrictionNeeded(robot_, row, *momentum, floor_);
+  const PlayedRow row = Row(t);
+  dynamics.zmp = RobotZmpMargin(robot_, row, *momentum);
+  dynamics.torques = JointTorques(robot_, row, *momentum);
+  dynamics.friction = FrictionNeeded(robot_, row, *momentum);
   return dynamics;
 }
 
@@ -168,7 +189,7 @@ double DescribedWalk::ComFourthBound(double begin, double end) const {
   for (const Piece& piece : pieces_) {
     seconds += piece.motion.SecondBounds(begin - piece.start, end - piece.start);
   }
-  return std::pow(PendulumRate(robot_), 2) * seconds.norm();
+  return std::pow(PendulumRate(robot_, crouch_), 2) * seconds.norm();
 }
 
 }  // namespace halfstep::verify

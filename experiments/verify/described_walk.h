@@ -5,11 +5,11 @@
 #include <utility>
 #include <vector>
 
-#include "experiments/verify/flat_floor.h"
 #include "experiments/verify/half_step_motion.h"
 #include "experiments/verify/leg_guide.h"
 #include "experiments/verify/played_motion.h"
 #include "experiments/verify/robot_posture.h"
+#include "experiments/verify/walk_floor.h"
 #include "experiments/verify/walk_text.h"
 #include "wpg/nth.h"
 #include "wpg/robot/robot_model.h"
@@ -41,16 +41,19 @@ struct WalkDynamics {
 class DescribedWalk {
  public:
   /// Precondition: as many rows as half-steps, at least one, durations > 0, each a half-step that
-  /// there can be (HalfStepMotion); a plan on one level.
+  /// there can be (HalfStepMotion). `floor`: below the walk [m], −∞ where there is none; where it
+  /// is not given the plan is on one level, which is the floor.
   DescribedWalk(const RobotModel& robot, const WalkPlan& planned,
-                const std::vector<HalfStepRow>& rows);
+                const std::vector<HalfStepRow>& rows, const std::optional<double>& floor = {});
 
   /// The walk that ends with half-step `last`, from 0. Precondition: there is one.
   DescribedWalk StopBranch(int last) const;
 
   const RobotModel& robot() const { return robot_; }                       ///< that walks
-  const FlatFloor& floor() const { return floor_; }                        ///< on which it walks
+  const WalkFloor& floor() const { return floor_; }                        ///< below it
   int num_half_steps() const { return static_cast<int>(pieces_.size()); }  ///< n
+  /// Height z_c of the pendulum [m].
+  double pendulum_height() const { return robot_.com_height - crouch_; }
   /// Whether it is an up half-step, from 0.
   bool IsUp(int half_step) const { return Nth(pieces_, half_step).motion.half_step().up; }
   /// When a half-step, counted from 0, begins and ends [s].
@@ -80,6 +83,12 @@ class DescribedWalk {
   /// Whether a foot (Index(Side)) is in the air, and moves horizontally or may do so.
   bool MovesHorizontally(double t, int side) const;
 
+  /// Height of the place where a foot stands at t, or stood last [m].
+  double FootholdHeight(double t, int side) const;
+  /// The same of the place where it lands, while it is in the air; in a walk that ends before, of
+  /// the place where it came from.
+  double LandingHeight(double t, int side) const;
+
   /// An upper bound of |c⁗| over [begin, end] [m/s⁴]: c̈ = ω²(c − p) is
   /// differentiated twice, and the closed-form bounds of all half-steps under way are added up.
   double ComFourthBound(double begin, double end) const;
@@ -99,8 +108,10 @@ class DescribedWalk {
   int StepInAir(double t) const;
 
   const RobotModel& robot_;
-  FlatFloor floor_;
+  WalkFloor floor_;
+  double crouch_;
   std::vector<Piece> pieces_;
+  std::array<double, 2> start_heights_;  // of the soles
   LegGuide guide_;
 };
 

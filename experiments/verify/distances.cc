@@ -5,13 +5,57 @@
 #include <limits>
 #include <utility>
 
+#include "experiments/verify/floor_distances.h"
+#include "wpg/geometry/pose2.h"
+#include "wpg/ground/ground.h"
+#include "wpg/nth.h"
+
 namespace halfstep::verify {
 
+namespace {
+
+// A top so far above a sole counts as at it [m]. Source: smoothing/README.md, "Solids of the
+// ground".
+constexpr double kAtSole = 1e-8;
+
+ConvexBody PrismOf(const GroundSolid& solid) {
+  const Eigen::Index n = solid.polygon.cols();
+  ConvexBody prism;
+  prism.vertices.resize(3, 2 * n);
+  prism.vertices.topRows<2>() << solid.polygon, solid.polygon;
+  prism.vertices.row(2).head(n).setConstant(solid.bottom);
+  prism.vertices.row(2).tail(n).setConstant(solid.top);
+  return prism;
+}
+
+std::vector<Obstacle> ObstaclesOf(const Ground& ground) {
+  std::vector<Obstacle> obstacles;
+  for (const GroundSolid& solid : ground.Solids()) {
+    obstacles.push_back({.name = solid.name, .shape = PrismOf(solid)});
+  }
+  return obstacles;
+}
+
+// Seen from above, in the sole frame.
+ConvexBody Flattened(const RobotBody& body, const Leg& leg) {
+  const Eigen::Isometry3d X_SoleBody = leg.X_BSole.inverse() * leg.joints[5].X_BLink;
+  ConvexBody flat;
+  flat.vertices = (X_SoleBody.linear() * body.shape.vertices).colwise() + X_SoleBody.translation();
+  flat.vertices.row(2).setZero();
+  flat.disc_radius = body.shape.disc_radius + body.shape.ball_radius;
+  return flat;
+}
+
+}  // namespace
+
 Distances::Distances(const RobotModel& robot, const Scene& scene, const Tube& tube)
-    : robot_(robot), scene_(scene), ways_(tube, robot) {
+    : robot_(robot),
+      scene_(scene),
+      of_ground_(std::make_shared<const std::vector<Obstacle>>(ObstaclesOf(*scene.ground))),
+      ways_(tube, robot) {
   std::vector<Eigen::AlignedBox3d> boxes;
   for (const RobotBody& body : robot.bodies) bodies_.emplace_back(body.shape);
-  for (const Obstacle& obstacle : scene.obstacles) {
+  const auto add = [&](const Obstacle& obstacle) {
     std::visit([this](const auto& shape) { obstacles_.emplace_back(BodyOf(shape)); },
                obstacle.shape);
     const Solid& solid = obstacles_.back();
@@ -20,6 +64,12 @@ Distances::Distances(const RobotModel& robot, const Scene& scene, const Tube& tu
     const bool still = motion.waypoints.empty() && motion.error == 0 && motion.speed == 0;
     (still ? still_ : others_).push_back(obstacles_.size() - 1);
     if (still) boxes.push_back(BoxOf(solid, obstacle.X_WO));
+  };
+  std::ranges::for_each(scene.obstacles, add);
+  std::ranges::for_each(*of_ground_, add);
+  for (const RobotBody& body : robot.bodies) {
+    if (of_ground_->empty() || !verify::IsOnFoot(body)) continue;
+    Nth(flat_feet_, body.leg).emplace_back(Flattened(body, Nth(robot.legs, body.leg)));
   }
   around_still_ = BoxIndex(std::move(boxes));
 }
@@ -56,9 +106,44 @@ std::vector<size_t> Distances::Near(const Eigen::AlignedBox3d& box_W, double rea
   return near;
 }
 
+bool Distances::MustKeepOff(size_t body, size_t obstacle,
+                            const std::array<double, 2>& soles) const {
+  const size_t first = scene_.obstacles.size();
+  const RobotBody& of = robot_.bodies[body];
+  return obstacle < first || !verify::IsOnFoot(of) ||
+         scene_.ground->Solids()[obstacle - first].top > Nth(soles, of.leg) + kAtSole;
+}
+
+double Distances::SoleFromSolid(int side, const Eigen::Vector4d& sole, size_t obstacle) {
+  const Eigen::Isometry3d X_WSole = ToIsometry({sole[0], sole[1], sole[3]}, sole[2]);
+  double least = std::numeric_limits<double>::infinity();
+  for (const Solid& part : Nth(flat_feet_, side)) {
+    ++queries_;
+    least = std::min(
+        least, Solid::Distance(part, X_WSole, obstacles_[obstacle], Eigen::Isometry3d::Identity()));
+  }
+  return least;
+}
+
+double Distances::SoleFromSolids(int side, const Eigen::Vector4d& sole, double enough) {
+  const Eigen::Isometry3d X_WSole = ToIsometry({sole[0], sole[1], sole[3]}, sole[2]);
+  Eigen::AlignedBox3d around;
+  for (const Solid& part : Nth(flat_feet_, side)) around.extend(BoxOf(part, X_WSole));
+  double least = enough;
+  for (const size_t o : Near(around, enough)) {
+    if (o >= scene_.obstacles.size()) least = std::min(least, SoleFromSolid(side, sole, o));
+  }
+  return least;
+}
+
 double Distances::FromAll(size_t body, const Placement& at, double t, double enough) {
+  std::array<double, 2> soles{};
+  for (size_t side = 0; side < 2; ++side) {
+    soles[side] = (at.X_WB * at.X_BLink[side][6]).translation().z();
+  }
   double least = std::numeric_limits<double>::infinity();
   for (const size_t o : Near(Around(body, at), enough)) {
+    if (!MustKeepOff(body, o, soles)) continue;
     least = std::min(least, FromObstacle(body, o, at, t, std::min(least, enough)).distance);
   }
   return least;
@@ -120,7 +205,7 @@ double Distances::NearestPair(const Placement& at, double cap) {
 }
 
 std::string Distances::NameOfObstaclePair(size_t body, size_t obstacle) const {
-  return robot_.bodies[body].name + " - " + scene_.obstacles[obstacle].name;
+  return robot_.bodies[body].name + " - " + scene_.NameOf(static_cast<int>(obstacle));
 }
 
 std::string Distances::NameOfPair(size_t a, size_t b) const {

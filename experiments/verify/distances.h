@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -15,8 +17,9 @@ namespace halfstep::verify {
 /// Distances of the robot's bodies from obstacles and from each other, by Solid. Obstacles are
 /// where they are said to be at a time t of the walk [s], and distances from them are less than
 /// that by how far from there they may be. All distances are less by what a tube can take from
-/// them. Borrows robot and scene. Const but for the count of
-/// queries.
+/// them. Solids of the ground are obstacles at rest, after those of the scene; a body on a foot
+/// need not keep off those whose top is no higher than its sole. Borrows robot and scene. Const but
+/// for the count of queries.
 class Distances {
  public:
   /// Robot and scene are borrowed.
@@ -24,7 +27,7 @@ class Distances {
 
   const Scene& scene() const { return scene_; }               ///< as given
   size_t num_bodies() const { return bodies_.size(); }        ///< those of the robot
-  size_t num_obstacles() const { return obstacles_.size(); }  ///< those of the scene
+  size_t num_obstacles() const { return obstacles_.size(); }  ///< those of the scene and solids
   long queries() const { return queries_; }                   ///< distances asked so far
 
   /// A distance [m] or a lower bound of it. `exact`: the solids themselves were measured.
@@ -35,8 +38,16 @@ class Distances {
   /// Distance of a body from an obstacle at t [m], less the obstacle's uncertainty. Where by their
   /// bounding volumes it is at least `enough` [m], it is that of these.
   Result FromObstacle(size_t body, size_t obstacle, const Placement& at, double t, double enough);
-  /// The least distance of a body from any obstacle at t [m], or something at least `enough` when
-  /// none is nearer than that.
+  /// Whether a body has to keep off an obstacle while the soles are at these heights [m], by
+  /// Index(Side). Source: smoothing/README.md, "Solids of the ground".
+  bool MustKeepOff(size_t body, size_t obstacle, const std::array<double, 2>& soles) const;
+  /// The distance of the outline of a whole foot (Index(Side)), laid flat where its sole is (x, y,
+  /// z [m], yaw), from a solid of the ground [m].
+  double SoleFromSolid(int side, const Eigen::Vector4d& sole, size_t obstacle);
+  /// The least of these, or something at least `enough` where none is nearer.
+  double SoleFromSolids(int side, const Eigen::Vector4d& sole, double enough);
+  /// The least distance of a body from any obstacle that it has to keep off at t [m], or something
+  /// at least `enough` when none is nearer than that.
   double FromAll(size_t body, const Placement& at, double t, double enough);
   /// The obstacles that may come within `reach` [m] of a box in W at any time: all others keep
   /// more. In increasing order.
@@ -70,7 +81,10 @@ class Distances {
 
   const RobotModel& robot_;
   const Scene& scene_;
+  // The solids of the ground as obstacles, which paths_ borrow; shared, so that copies do.
+  std::shared_ptr<const std::vector<Obstacle>> of_ground_;
   std::vector<Solid> bodies_, obstacles_;
+  std::array<std::vector<Solid>, 2> flat_feet_;  // bodies of a foot, in the sole's plane
   std::vector<ObstaclePath> paths_;
   BodyWays ways_;
   std::vector<size_t> still_, others_;  // obstacles that are known to stay where they are

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "wpg/geometry/pose2.h"
 
@@ -16,6 +17,9 @@ struct FormColumns {
   double via_along = 0;                     ///< how far ahead of that centre [m]
   double zmp_shift = 0, zmp_bump_ramp = 0;  ///< of T; of the bump
   Pose2 footstep = {};  ///< the step's, seen from where it is planned; as planned without columns
+  /// When the waist rises in an up half-step, of T; in a down one as long before its end. They are
+  /// in tables of walks over levels only.
+  double rise_begin = 0.525, rise_end = 1;
 };
 
 /// What verify knows by itself of a column of forms: a row for each but the footsteps'.
@@ -32,8 +36,8 @@ struct FormColumn {
   bool of_step() const { return differs != nullptr; }
 };
 
-/// In the order of the columns.
-inline constexpr std::array<FormColumn, 7> kFormColumns = {{
+/// In the order of the columns; the footsteps' are before the last two.
+inline constexpr std::array<FormColumn, 9> kAllFormColumns = {{
     {"via_lateral", "via_laterals", "via_lateral_m", &FormColumns::via_lateral, 0.01, 1,
      "via point at ", "", "another via point"},
     {"foot_ramp", "foot_ramps", "foot_ramp", &FormColumns::foot_ramp, 0.1, 0.5, "foot ramp ", "",
@@ -48,6 +52,13 @@ inline constexpr std::array<FormColumn, 7> kFormColumns = {{
      nullptr},
     {"zmp_bump_ramp", "zmp_bump_ramps", "zmp_bump_ramp", &FormColumns::zmp_bump_ramp, 0.1, 1,
      "ZMP's bump ramp ", "", nullptr},
+    {"rise_begin", "heights", "rise_begin", &FormColumns::rise_begin, 0, 0.75, "rise begin ", "",
+     nullptr},
+    {"rise_end", "heights", "rise_end", &FormColumns::rise_end, 0.85, 1, "rise end ", "", nullptr},
 }};
+/// Those of any walk whose half-steps have forms of their own, and those of walks over levels.
+inline constexpr auto kFormColumns = std::span(kAllFormColumns).first<7>();
+/// The latter.
+inline constexpr auto kRiseColumns = std::span(kAllFormColumns).last<2>();
 
 }  // namespace halfstep::verify

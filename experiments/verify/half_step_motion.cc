@@ -7,14 +7,16 @@
 namespace halfstep::verify {
 namespace {
 
-// CoM and ZMP at p_S, the waist turned by `yaw`, the swing foot at X_SF; all of it in W.
-WalkNumbers AtRest(const PlacedHalfStep& placed, const Eigen::Vector2d& p_S, double yaw,
+// CoM and ZMP at p_S, the waist turned by `yaw` and `z` above where it stands on the support sole's
+// plane, the swing foot at X_SF; all of it in W.
+WalkNumbers AtRest(const PlacedHalfStep& placed, const Eigen::Vector2d& p_S, double yaw, double z,
                    const Foothold& X_SF) {
   const auto& [half_step, X_WS] = placed;
   const Foothold swing = X_WS * X_SF;
   WalkNumbers x;
   x.segment<2>(kComX) = x.segment<2>(kZmpX) = X_WS.Planar() * p_S;
   x[kWaistYaw] = X_WS.yaw + yaw;
+  x[kWaistZ] = X_WS.height + z;
   x.segment<4>(SoleX(Index(half_step.support))) << X_WS.x, X_WS.y, X_WS.height, X_WS.yaw;
   x.segment<4>(SoleX(Index(half_step.swing()))) << swing.x, swing.y, swing.height, swing.yaw;
   return x;
@@ -24,7 +26,8 @@ WalkNumbers AtRest(const PlacedHalfStep& placed, const Eigen::Vector2d& p_S, dou
 
 HalfStepMotion::HalfStepMotion(const PlacedHalfStep& placed, double omega)
     : half_step_(placed.half_step),
-      shift_(omega * duration(), form().zmp_shift, form().zmp_bump_ramp) {
+      shift_(omega * duration(), form().zmp_shift, form().zmp_bump_ramp),
+      footstep_height_((placed.X_WS * placed.half_step.X_SF).height) {
   HALFSTEP_CHECK(form().foot_delay >= 0 && form().foot_delay <= 0.3 &&
                      form().foot_delay * duration() <= 0.9 * t1(),
                  "foot delay = " << form().foot_delay << " of T, t1 = " << t1() << " s");
@@ -32,11 +35,16 @@ HalfStepMotion::HalfStepMotion(const PlacedHalfStep& placed, double omega)
                  "foot ramp = " << form().foot_ramp);
   HALFSTEP_CHECK(form().lift_share >= 0.2 && form().lift_share <= 1,
                  "lift share = " << form().lift_share);
+  HALFSTEP_CHECK(form().rise_begin >= 0 && form().rise_begin <= 0.75 && form().rise_end >= 0.85 &&
+                     form().rise_end <= 1,
+                 "rise on " << form().rise_begin << " … " << form().rise_end);
   const double aside = Sign(half_step_.swing());
   const Foothold& X_SF = half_step_.X_SF;
-  const WalkNumbers standing = AtRest(placed, X_SF.Planar().position() / 2, X_SF.yaw / 2, X_SF);
+  const double crouch = half_step_.crouch;
+  const WalkNumbers standing = AtRest(placed, X_SF.Planar().position() / 2, X_SF.yaw / 2,
+                                      std::min(0.0, X_SF.height) - crouch, X_SF);
   const WalkNumbers at_via =
-      AtRest(placed, {0, aside * half_step_.support_point}, 0,
+      AtRest(placed, {0, aside * half_step_.support_point}, 0, -crouch,
              {{form().via_along, aside * form().via_lateral, 0}, half_step_.via_height});
   start_ = half_step_.up ? standing : at_via;
   delta_ = (half_step_.up ? at_via : standing) - start_;
@@ -62,6 +70,12 @@ Jet HalfStepMotion::HeightAt(double sigma) const {
   return half_step_.up ? StepAt(sigma, 1 - t1, 1 - t1 + lift) : StepAt(sigma, t1 - lift, t1);
 }
 
+// Of the waist's way up, or mirrored in time down.
+Jet HalfStepMotion::RiseAt(double sigma) const {
+  const double begin = form().rise_begin, end = form().rise_end;
+  return half_step_.up ? StepAt(sigma, begin, end) : StepAt(sigma, 1 - end, 1 - begin);
+}
+
 void HalfStepMotion::AddAt(double tau, WalkInstant* at) const {
   if (tau <= 0) return;
   if (tau >= duration()) {
@@ -78,6 +92,7 @@ void HalfStepMotion::AddAt(double tau, WalkInstant* at) const {
   add(kComX, 2, shift_.Com(sigma));
   add(kZmpX, 2, shift_.Zmp(sigma));
   add(kWaistYaw, 1, StepAt(sigma, 0, 1));
+  if (delta_[kWaistZ] != 0) add(kWaistZ, 1, RiseAt(sigma));
   const int foot = SoleX(Index(half_step_.swing()));
   const Jet way = FootAt(sigma);
   add(foot, 2, way);

@@ -8,14 +8,16 @@
 namespace halfstep::verify {
 
 /// Where the numbers of a walk stand in WalkNumbers: CoM x, y and ZMP x, y [m], the waist's yaw
-/// [rad], and of each sole x, y, z [m] and yaw [rad].
+/// [rad] and how far it is above where it stands on z = 0 [m], and of each sole x, y, z [m] and yaw
+/// [rad].
 enum WalkNumber : int {
   kComX = 0,
   kZmpX = 2,
   kWaistYaw = 4,
-  kLeftX = 5,
-  kRightX = 9,
-  kNumWalkNumbers = 13
+  kWaistZ = 5,
+  kLeftX = 6,
+  kRightX = 10,
+  kNumWalkNumbers = 14
 };
 using WalkNumbers = Eigen::Matrix<double, kNumWalkNumbers, 1>;  ///< in W
 /// The first number of a sole by Index(Side).
@@ -43,6 +45,8 @@ class HalfStepMotion {
   /// Bounds of |c̈ x|, |c̈ y| and of the same of the ZMP over [from, to], added up [m/s²].
   Eigen::Vector2d SecondBounds(double from, double to) const;
 
+  /// Height of the place where the swing foot stands before it (up) or after it (down), in W [m].
+  double FootstepHeight() const { return footstep_height_; }
   double duration() const { return half_step_.duration; }                ///< T [s]
   double t1() const { return duration() * (1 - form().zmp_shift) / 2; }  ///< when the ZMP shifts
   double t2() const { return duration() * (1 + form().zmp_shift) / 2; }  ///< until then
@@ -56,9 +60,11 @@ class HalfStepMotion {
   const FormColumns& form() const { return half_step_.form; }
   Jet FootAt(double sigma) const;
   Jet HeightAt(double sigma) const;
+  Jet RiseAt(double sigma) const;
 
   HalfStep half_step_;
   ZmpShift shift_;
+  double footstep_height_;
   WalkNumbers start_, delta_;  // f(0), f(T) − f(0)
 };
 

@@ -75,8 +75,8 @@ std::optional<RobotMomentum> RobotMomentum::Of(const RobotModel& robot, const Wa
   return all;
 }
 
-Eigen::Vector2d RobotMomentum::Zmp(const FlatFloor& on) const {
-  const Eigen::Vector3d moment = floor.About(on.Point({0, 0}));
+Eigen::Vector2d RobotMomentum::Zmp(double height) const {
+  const Eigen::Vector3d moment = floor.About({0, 0, height});
   return Eigen::Vector2d(-moment.y(), moment.x()) / floor.force.z();
 }
 

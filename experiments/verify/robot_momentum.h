@@ -4,7 +4,6 @@
 #include <array>
 #include <optional>
 
-#include "experiments/verify/flat_floor.h"
 #include "experiments/verify/half_step_motion.h"
 #include "wpg/robot/robot_model.h"
 
@@ -34,8 +33,8 @@ struct RobotMomentum {
   static std::optional<RobotMomentum> Of(const RobotModel& robot, const WalkInstant& at,
                                          const std::array<Vector6d, 2>& near);
 
-  /// The point of the floor about which its force has no horizontal moment, in W [m].
-  Eigen::Vector2d Zmp(const FlatFloor& on) const;
+  /// The point at a height [m] about which the floor's force has no horizontal moment, in W [m].
+  Eigen::Vector2d Zmp(double height) const;
 };
 
 }  // namespace halfstep::verify

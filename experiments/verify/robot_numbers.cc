@@ -15,7 +15,9 @@ double AcrossKnee(const Leg& leg) {
 
 }  // namespace
 
-double PendulumRate(const RobotModel& robot) { return std::sqrt(kGravity / robot.com_height); }
+double PendulumRate(const RobotModel& robot, double crouch) {
+  return std::sqrt(kGravity / (robot.com_height - crouch));
+}
 
 // Hip (a point of the thigh), knee axis and ankle (a point of the shank): stretched when both lie
 // in one half-plane pair of the knee axis.

@@ -8,8 +8,8 @@ namespace halfstep::verify {
 
 inline constexpr double kGravity = 9.81;  ///< [m/s²]
 
-/// ω = √(g/z_c) of the robot's pendulum [1/s].
-double PendulumRate(const RobotModel& robot);
+/// ω = √(g/z_c) of the pendulum of a robot that crouches so far [m], [1/s].
+double PendulumRate(const RobotModel& robot, double crouch = 0);
 /// Hip–ankle distance of a stretched leg [m].
 double StretchedLength(const Leg& leg);
 /// ℓ: from the hip to the knee's axis, from there to the ankle, and from there down to the sole

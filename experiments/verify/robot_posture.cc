@@ -17,7 +17,7 @@ RobotPosture PostureOf(const RobotModel& robot, const WalkNumbers& x,
                        const std::array<Vector6d, 2>* near) {
   RobotPosture posture;
   const Pose2 X_WB = Pose2{x[kComX], x[kComX + 1], x[kWaistYaw]} * Pose2{-robot.com_x_B, 0, 0};
-  posture.X_WB = ToIsometry(X_WB, robot.waist_height);
+  posture.X_WB = ToIsometry(X_WB, robot.waist_height + x[kWaistZ]);
   for (size_t side = 0; side < 2; ++side) {
     const Eigen::Vector4d sole = x.segment<4>(SoleX(static_cast<int>(side)));
     const Eigen::Isometry3d X_BSole =

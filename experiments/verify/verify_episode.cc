@@ -24,6 +24,7 @@
 #include "experiments/verify/given_files.h"
 #include "experiments/verify/robot_numbers.h"
 #include "experiments/verify/tolerances.h"
+#include "wpg/files/input_error.h"
 #include "wpg/files/sha256.h"
 
 namespace halfstep::verify {
@@ -70,6 +71,11 @@ Place PlaceOf(const VerifyOptions& options, const LiveConfig& config,
                              .sha256 = manifest.scene_sha256})
                       .input;
   }
+  if (!place.scene.ground->OnlyLevel()) {
+    throw InputError(
+        {"verify: levels of an episode's ground are not derived here (valid: an "
+         "episode on the flat floor)"});
+  }
   place.robot =
       WithAccelerations(std::move(place.robot), experiment.smoothing.assumed_acceleration);
   place.scene = WithSpareBoxes(std::move(place.scene), config.live);
@@ -102,11 +108,13 @@ void CheckEpisodeWalking(const VerifyOptions& options, const EpisodeText& episod
                          const EpisodeManifest& manifest, const LiveConfig& config,
                          const Place& place, const EpisodePromise& promise, Findings* findings) {
   const ExperimentConfig& experiment = config.experiment;
-  const EpisodeWalks all = CheckEpisodeWalks(episode,
-                                             {.robot = place.robot,
-                                              .start = StartSoles(experiment, place.robot),
-                                              .half_step = HalfStepOf(experiment.half_step)},
-                                             findings);
+  const std::array<Pose2, 2> start = StartSoles(experiment, place.robot);
+  const EpisodeWalks all =
+      CheckEpisodeWalks(episode,
+                        {.robot = place.robot,
+                         .start = {Foothold::Level(start[0]), Foothold::Level(start[1])},
+                         .half_step = HalfStepOf(experiment.half_step)},
+                        findings);
   const std::string path = (fs::path(options.run) / "trajectory.csv").string();
   const std::vector<PlayedRow> rows = ReadTrajectory(path, ReadBytes(path), place.robot);
   if (all.walks.size() != episode.walks.size()) return;

@@ -27,6 +27,7 @@
 #include "experiments/verify/described_walk.h"
 #include "experiments/verify/found_inputs.h"
 #include "experiments/verify/given_files.h"
+#include "experiments/verify/level_tops.h"
 #include "experiments/verify/own_names.h"
 #include "experiments/verify/robot_numbers.h"
 #include "experiments/verify/tolerances.h"
@@ -106,9 +107,12 @@ struct MethodFiles {
 
 // The walk that half_steps.csv and overlaps.csv describe; none when they do not fit.
 std::optional<DescribedWalk> WalkOf(const MethodFiles& files, const ExperimentConfig& config,
-                                    const RobotModel& robot, const RunManifest::Method* of_method,
-                                    Findings* findings) {
-  const WalkPlan planned = PlanOf(config, robot);
+                                    const RobotModel& robot, const Scene& scene,
+                                    const RunManifest::Method* of_method, Findings* findings) {
+  const LevelTops ground(scene);
+  const std::optional<WalkPlan> on_ground = PlanOf(config, robot, ground, findings);
+  if (!on_ground) return std::nullopt;
+  const WalkPlan& planned = *on_ground;
   CheckFootsteps(ReadFootsteps(files.PathInRun("footsteps.csv"), files.ReadOfRun("footsteps.csv")),
                  planned, findings);
   const auto half_steps =
@@ -126,7 +130,8 @@ std::optional<DescribedWalk> WalkOf(const MethodFiles& files, const ExperimentCo
     CheckChosen(method, half_steps, planned, config.smoothing, findings);
   }
   try {
-    return DescribedWalk(robot, planned, half_steps);
+    if (ground.even()) return DescribedWalk(robot, planned, half_steps);
+    return DescribedWalk(robot, planned, half_steps, scene.ground->Floor());
   } catch (const std::logic_error& error) {
     findings->Disagree(std::string("half_steps.csv: describes no walk: ") + error.what());
     return std::nullopt;
@@ -177,11 +182,6 @@ Inputs InputsOf(const VerifyOptions& options, const ExperimentConfig& config,
                                     .sha256 = manifest.scene_sha256});
     CheckPassed("scene", found.passed, config.scene, findings);
     inputs.scene = std::move(found.input);
-  }
-  if (!inputs.scene.ground->OnlyLevel()) {
-    throw InputError(
-        {"verify: the scene's ground is uneven, and its levels are not derived here yet "
-         "(valid: a run on the flat floor)"});
   }
   return inputs;
 }
@@ -286,7 +286,7 @@ VerifiedStatement VerifyMethod(const VerifyOptions& options, const RunManifest& 
                   FindNotCovered(DemandsOf(config.smoothing.limits, findings), by_config, scene),
                   findings);
   const std::optional<DescribedWalk> walk =
-      WalkOf(files, config, robot, manifest.MethodOf(folder), findings);
+      WalkOf(files, config, robot, scene, manifest.MethodOf(folder), findings);
   const VerifiedStatement verified{certificate.statement, not_covered,
                                    certificate.verdict == "certified"};
   if (!CheckIsMotion(rows, findings) || !walk) return verified;

@@ -19,7 +19,8 @@ struct HalfStep {
   double via_height = 0;       ///< of the via point [m]
   /// Where CoM and ZMP are then: along the sole's y, towards the swing foot [m].
   double support_point = 0;
-  FormColumns form;  ///< its `footstep` has no meaning here
+  FormColumns form;   ///< its `footstep` has no meaning here
+  double crouch = 0;  ///< how far the waist is kept below where the robot file has it [m]
 
   Side swing() const { return Opposite(support); }  ///< the foot that moves
 };

@@ -13,7 +13,8 @@ std::vector<HalfStepRow> ReadHalfSteps(const std::string& path, const std::strin
   std::vector<std::string> columns = {"half_step",  "kind",         "support",        "start_s",
                                       "duration_s", "height_scale", "support_point_m"};
   const std::string head = text.substr(0, text.find('\n'));
-  const bool has_footsteps = head.ends_with(",footstep_yaw_rad");
+  const bool has_rise = head.ends_with("," + std::string(kRiseColumns.back().column));
+  const bool has_footsteps = has_rise || head.ends_with(",footstep_yaw_rad");
   const bool has_forms =
       has_footsteps || head.ends_with("," + std::string(kFormColumns.back().column));
   const size_t first = columns.size();
@@ -22,6 +23,9 @@ std::vector<HalfStepRow> ReadHalfSteps(const std::string& path, const std::strin
   }
   if (has_footsteps) {
     columns.insert(columns.end(), {"footstep_x_m", "footstep_y_m", "footstep_yaw_rad"});
+  }
+  if (has_rise) {
+    for (const FormColumn& one : kRiseColumns) columns.emplace_back(one.column);
   }
   const CsvText csv(path, text, columns);
   std::vector<HalfStepRow> rows;
@@ -40,6 +44,9 @@ std::vector<HalfStepRow> ReadHalfSteps(const std::string& path, const std::strin
     if (!has_footsteps) continue;
     const size_t moves = first + kFormColumns.size();
     form.footstep = {csv.Number(i, moves), csv.Number(i, moves + 1), csv.Number(i, moves + 2)};
+    rows.back().has_rise = has_rise;
+    for (size_t k = 0; has_rise && k < kRiseColumns.size(); ++k)
+      form.*kRiseColumns[k].value = csv.Number(i, moves + 3 + k);
   }
   return rows;
 }

@@ -14,9 +14,16 @@ struct HalfStepRow {
   double start = 0, duration = 0, height_scale = 0;  ///< [s], [s], 1
   double support_point = 0;                          ///< [m]
   std::optional<FormColumns> form = {};              ///< none: as planned
+  bool has_rise = false;  ///< whether the form's rise has columns; else it is as planned
 
   /// The form of the half-step whose plan is `planned`.
-  FormColumns FormOf(const HalfStep& planned) const { return form.value_or(planned.form); }
+  FormColumns FormOf(const HalfStep& planned) const {
+    FormColumns of = form.value_or(planned.form);
+    for (const FormColumn& one : kRiseColumns) {
+      if (!has_rise) of.*one.value = planned.form.*one.value;
+    }
+    return of;
+  }
 };
 
 /// A row of overlaps.csv; its columns about what holds the overlap and what that costs are not

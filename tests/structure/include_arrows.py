@@ -40,6 +40,7 @@ ALLOWED_IN_VERIFY = {
     "wpg/geometry/foothold.h": "places of feet, in configs",
     "wpg/geometry/pose2.h": "the same, seen from above",
     "wpg/geometry/side.h": "left and right",
+    "wpg/ground/ground.h": "the prisms that a scene's ground is made of",
     "wpg/nth.h": "elements by signed indices",
     "wpg/robot/not_covered.h": "the words of what is not covered",
     "wpg/robot/robot_model.h": "the reader of robots",

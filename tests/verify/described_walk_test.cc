@@ -66,6 +66,19 @@ TEST(VerifyFormColumns, AreThoseOfTheFamilies) {
     EXPECT_EQ(one.most, traits.most);
   }
   EXPECT_EQ(k, columns.size());
+  size_t rise = 0;
+  for (const ParameterFamily family : FamiliesOfHalfSteps(HalfStepsExtent::kHeights)) {
+    const ParameterFamilyTraits& traits = Traits(family);
+    if (!traits.of_heights) continue;
+    ASSERT_LT(rise, kRiseColumns.size()) << traits.name;
+    const FormColumn& one = kRiseColumns[rise++];
+    EXPECT_EQ(one.name, traits.name);
+    EXPECT_EQ(one.column, traits.column);
+    EXPECT_EQ(one.of_step(), traits.of == ParameterOf::kStep);
+    EXPECT_EQ(one.least, traits.least);
+    EXPECT_EQ(one.most, traits.most);
+  }
+  EXPECT_EQ(rise, kRiseColumns.size());
 }
 
 TEST(DescribedWalk, IsTheWalkThatTheRowsWereMadeOf) {

@@ -21,7 +21,10 @@ inline WalkPlan PlanOf(const HalfStepSequence& sequence) {
                                          .lift_share = of.shape.lift_share,
                                          .via_along = of.via_along,
                                          .zmp_shift = of.shape.shift,
-                                         .zmp_bump_ramp = of.shape.bump_ramp}},
+                                         .zmp_bump_ramp = of.shape.bump_ramp,
+                                         .rise_begin = of.shape.rise_begin,
+                                         .rise_end = of.shape.rise_end},
+                                .crouch = of.shape.crouch},
                                X_WS});
   }
   return plan;

@@ -38,7 +38,10 @@ inline std::vector<HalfStepRow> RowsOf(const SuperposedWalk& walk) {
                      walk.parameters().zmp_shifts[n],
                      walk.parameters().of(ParameterFamily::kZmpBumpRamp)[n],
                      {walk.parameters().footstep_xs[n / 2], walk.parameters().footstep_ys[n / 2],
-                      walk.parameters().footstep_yaws[n / 2]}}});
+                      walk.parameters().footstep_yaws[n / 2]},
+                     walk.parameters().of(ParameterFamily::kRiseBegin)[n],
+                     walk.parameters().of(ParameterFamily::kRiseEnd)[n]},
+         true});
   }
   return rows;
 }

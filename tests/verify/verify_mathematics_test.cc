@@ -27,9 +27,9 @@ Pose2 DrawPlace(double size, std::mt19937* random) {
   return {Draw(-size, size, random), Draw(-size, size, random), Draw(-size, size, random)};
 }
 
-// Two steps with forms of their own, the second on a moved footstep.
+// Two steps over levels with forms of their own, the second on a moved footstep.
 HalfStepSequence DrawSequence(std::mt19937* random) {
-  const auto level = [](const Pose2& X_WF) { return Foothold::Level(X_WF); };
+  const auto level = [random](const Pose2& X_WF) { return Foothold(X_WF, Draw(0, 0.08, random)); };
   const Pose2 left{0.1, 0.1, 0.2}, right{0, -0.1, -0.1};
   HalfStepSequence sequence =
       MakeSequence({level(left), level(right)},
@@ -45,6 +45,9 @@ HalfStepSequence DrawSequence(std::mt19937* random) {
     half_step.shape.foot_ramp = Draw(0, 1, random) < 0.3 ? 0.5 : Draw(0.1, 0.5, random);
     half_step.shape.lift_share = Draw(0.2, 1, random);
     half_step.shape.support_point = Draw(-0.03, 0.03, random);
+    half_step.shape.rise_begin = Draw(0, 0.75, random);
+    half_step.shape.rise_end = Draw(0.85, 1, random);
+    half_step.shape.crouch = 0.03;
   }
   return sequence;
 }
@@ -118,6 +121,7 @@ TEST(WalkPlan, MovesFootstepsAsTheProgramDoes) {
            {theirs.half_steps[i].X_WS.Inverse() * own.half_steps[i].X_WS,
             theirs.half_steps[i].half_step.X_SF.Inverse() * own.half_steps[i].half_step.X_SF}) {
         EXPECT_NEAR(between.Planar().position().norm() + std::abs(between.yaw), 0, 1e-14);
+        EXPECT_NEAR(between.height, 0, 1e-15);
       }
     }
   }

@@ -29,8 +29,9 @@ struct TamperedWalk {
 };
 
 /// A run with its own copy of robot and scene, to be tampered with; by default of the Fig. 5 walk.
-/// Scenes are copied for that one and for `crossing`.
-/// The run itself is made once a build by the command and copied for each object.
+/// Scenes are copied for that one and for `crossing`; for `platform_15cm` a scene with a platform
+/// of 10 cm is written, which an override has to name. The run itself is made once a build by the
+/// command and copied for each object.
 class TamperedRun {
  public:
   explicit TamperedRun(const TamperedWalk& walk = {}) : robot_(walk.robot), scene_(SceneOf(walk)) {
@@ -169,9 +170,10 @@ class TamperedRun {
     for (const std::string& item : walk.overrides) {
       if (item == "scene=none") return "";
     }
-    return walk.config == "fig5_box"   ? "box.yaml"
-           : walk.config == "crossing" ? "crossing_bar.yaml"
-                                       : "";
+    return walk.config == "fig5_box"        ? "box.yaml"
+           : walk.config == "crossing"      ? "crossing_bar.yaml"
+           : walk.config == "platform_15cm" ? "platform_10cm.yaml"
+                                            : "";
   }
 
   static void Make(const std::filesystem::path& place, const TamperedWalk& walk) {
@@ -183,6 +185,10 @@ class TamperedRun {
     for (const char* scene : {"box.yaml", "crossing_bar.yaml"}) {
       fs::copy(source / "experiments/scenes" / scene, place / "scenes" / scene);
     }
+    WriteText(
+        place / "scenes/platform_10cm.yaml",
+        "name: platform_10cm\nsurfaces:\n  - name: platform\n    polygon_m: [[0.14, -1], [0.7, "
+        "-1], [0.7, 1], [0.14, 1]]\n    height_m: 0.1\n");
     // An area that no sole may touch, 10 cm and more beside the feet.
     WriteText(place / "scenes/box.yaml",
               "no_step:\n  - name: aside\n    polygon_m: [[-0.5, 0.3], [0.7, 0.3], [0.7, 0.4], "

@@ -178,15 +178,14 @@ WalkPlan StandingAt(double left, double right) {
   return {{Foothold({0, 0.1, 0}, left), Foothold({0, -0.1, 0}, right)}, {}};
 }
 
-TEST(FlatFloor, IsTheOneLevelOfAPlan) {
-  const FlatFloor floor(StandingAt(0.2, 0.2));
-  EXPECT_NEAR(floor.Above(0.25), 0.05, 1e-15);
-  EXPECT_EQ(floor.Point({1, 2}), Eigen::Vector3d(1, 2, 0.2));
-  EXPECT_EQ(floor.Sole({0, 0.1, 0}), StandingAt(0.2, 0.2).start[0]);
-  EXPECT_THROW(FlatFloor{StandingAt(0.2, 0)}, std::logic_error);
+TEST(WalkFloor, IsTheOneLevelOfAPlanUnlessItIsGiven) {
+  EXPECT_NEAR(WalkFloor(StandingAt(0.2, 0.2)).Above(0.25), 0.05, 1e-15);
+  EXPECT_EQ(WalkFloor(-0.25).Above(0.25), 0.5);
+  EXPECT_EQ(WalkFloor(-kInfinity).Above(0.25), kInfinity);
+  EXPECT_THROW(WalkFloor{StandingAt(0.2, 0)}, std::logic_error);
   WalkPlan climbs = PlanOf(Fig5().sequence);
   climbs.half_steps.back().X_WS.height = 0.15;
-  EXPECT_THROW(FlatFloor{climbs}, std::logic_error);
+  EXPECT_THROW(WalkFloor{climbs}, std::logic_error);
 }
 
 // The force that the floor gives, seen from where its points are.
@@ -194,8 +193,8 @@ TEST(RobotMomentum, ItsZmpIsAPointOfTheFloor) {
   RobotMomentum momentum;
   momentum.floor = {.force = {3, -5, 100}, .moment = {20, 30, 7}};
   for (const double height : {0.0, 0.2}) {
-    const FlatFloor floor(StandingAt(height, height));
-    const Eigen::Vector3d moment = momentum.floor.About(floor.Point(momentum.Zmp(floor)));
+    const Eigen::Vector2d zmp = momentum.Zmp(height);
+    const Eigen::Vector3d moment = momentum.floor.About({zmp.x(), zmp.y(), height});
     EXPECT_LT(moment.head<2>().norm(), 1e-12) << height;
   }
 }
@@ -219,7 +218,7 @@ TEST(CheckFloor, SeesABodyThatIsLowestBetweenTwoRows) {
     CertificateText certificate;
     certificate.demanded.fill(demanded);
     Findings findings;
-    CheckFloor(motion, FlatFloor(StandingAt(0, 0)), {}, certificate, 0, &findings);
+    CheckFloor(motion, WalkFloor(0), {}, certificate, 0, &findings);
     EXPECT_EQ(findings.disagreements() > 0, demanded > middle);
   }
 }

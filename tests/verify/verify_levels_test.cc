@@ -1,0 +1,177 @@
+// What `halfstep verify` derives of walks over levels, and what it must refuse of them. Hashes
+// follow each forgery.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "experiments/verify/distances.h"
+#include "experiments/verify/level_tops.h"
+#include "planner/ground/level_borders.h"
+#include "tests/verify/certificate_forgery.h"
+#include "tests/verify/rows_of.h"
+
+namespace halfstep {
+namespace {
+
+using testing::HasSubstr;
+using Table = TamperedRun::Table;
+
+// Two steps onto a platform of 10 cm.
+const TamperedWalk kOntoPlatform = {
+    .config = "platform_15cm",
+    .overrides = {"scene=../scenes/platform_10cm.yaml",
+                  "footsteps=[{foot: right, x_m: 0.27, y_m: -0.105}, "
+                  "{foot: left, x_m: 0.27, y_m: 0.105}]",
+                  "half_step.crouch_m=0.02", "half_step.lift_share=0.9", "output.period_s=0.02"}};
+
+TEST(VerifyLevels, AWalkOntoAPlatformIsVerified) {
+  const TamperedRun run(kOntoPlatform);
+  const Outcome outcome = run.Verify();
+  EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("soles inside their levels: "));
+  EXPECT_THAT(outcome.out, HasSubstr("foothold 2"));
+}
+
+size_t ColumnOf(const Table& table, const std::string& name) {
+  const auto& header = table.front();
+  return static_cast<size_t>(std::ranges::find(header, name) - header.begin());
+}
+
+// Adds to a number in a row of a table of the run, counted from the header.
+std::function<void(TamperedRun&)> Add(const std::string& file, const std::string& column,
+                                      size_t row, double by) {
+  return [=](TamperedRun& run) {
+    TamperedRun::EditCsv(run.run() / file, [&](Table& table) {
+      std::string& cell = table.at(row).at(ColumnOf(table, column));
+      cell = Formatted("%.17g", std::stod(cell) + by);
+    });
+  };
+}
+
+std::function<void(TamperedRun&)> InScene(const std::string& old, const std::string& by) {
+  return [=](TamperedRun& run) { TamperedRun::Replace(run.scene(), old, by); };
+}
+
+std::vector<CertificateForgery> Forgeries() {
+  return {
+      {"TreadHigher", InScene("height_m: 0.1", "height_m: 0.101"),
+       "footsteps.csv:4: not the footstep of config.yaml"},
+      {"TreadLower", InScene("height_m: 0.1", "height_m: 0.099"),
+       "footsteps.csv:4: not the footstep of config.yaml"},
+      {"RiserNearer",
+       InScene("[[0.14, -1], [0.7, -1], [0.7, 1], [0.14, 1]]",
+               "[[0.135, -1], [0.7, -1], [0.7, 1], [0.135, 1]]"),
+       "foothold: margin"},
+      // The outline reaches back to x = 0.149 m.
+      {"FootOverAnEdge",
+       InScene("[[0.14, -1], [0.7, -1], [0.7, 1], [0.14, 1]]",
+               "[[0.15, -1], [0.7, -1], [0.7, 1], [0.15, 1]]"),
+       "config.yaml: footsteps[0]: no level of the scene bears all of the sole"},
+      {"HeightOfAFootstep", Add("footsteps.csv", "z_m", 3, 1e-3),
+       "footsteps.csv:4: not the footstep of config.yaml"},
+      {"RiseOfTheWaist", Add("dichotomy/half_steps.csv", "rise_begin", 3, -0.1),
+       "off the walk of half_steps.csv"},
+      {"WaistOfARow", Add("dichotomy/trajectory.csv", "waist_z_m", 100, 1e-4),
+       "waist is off the walk of half_steps.csv"},
+      {"MarginOfFoothold",
+       [](TamperedRun& run) {
+         run.EditCertificate([](Table& table) {
+           for (auto& row : table) {
+             if (row[2] == "foothold") row[5] = Formatted("%.17g", std::stod(row[5]) + 1e-3);
+           }
+         });
+       },
+       "foothold: margin"},
+      {"NothingOfFoothold",
+       [](TamperedRun& run) {
+         run.EditCertificate([](Table& table) {
+           std::erase_if(table, [](const auto& row) { return row[2] == "foothold"; });
+         });
+       },
+       "foothold: 0 statements instead of 2"},
+      {"LessDemandedOfFoothold",
+       [](TamperedRun& run) {
+         run.EditJson([](nlohmann::ordered_json& json) { json["demanded"]["foothold"] = 0.001; });
+       },
+       "foothold: the certificate demands 0.001"},
+  };
+}
+
+class ForgedLevels : public testing::TestWithParam<CertificateForgery> {};
+TEST_P(ForgedLevels, IsRefusedForItsReason) { ExpectRefused(kOntoPlatform, GetParam()); }
+INSTANTIATE_TEST_SUITE_P(Verify, ForgedLevels, testing::ValuesIn(Forgeries()),
+                         [](const auto& info) { return info.param.name; });
+
+// Tiles of two heights, one of which rests on another, and a hole; the floor is below.
+Scene Tiles() {
+  return ParseScene(
+      "tiles.yaml",
+      "surfaces:\n"
+      "  - {name: a, polygon_m: [[0, 0], [1, 0], [1, 1], [0, 1]], height_m: 0.1}\n"
+      "  - {name: b, polygon_m: [[1, 0], [2, 0.2], [2, 1], [1, 1]], height_m: 0.1}\n"
+      "  - {name: c, polygon_m: [[0, 1], [0.8, 1], [0.8, 2], [0, 2]], height_m: 0.1}\n"
+      "  - {name: d, polygon_m: [[1.2, 0.5], [1.5, 0.5], [1.5, 0.9]], height_m: 0.2,\n"
+      "     thickness_m: 0.1}\n"
+      "  - {name: e, polygon_m: [[0.8, 1], [2, 1], [2, 2], [0.8, 2]], height_m: 0.2}\n");
+}
+
+TEST(LevelTops, AreTheLevelsOfThePlanner) {
+  const Scene scene = Tiles();
+  const RobotModel& robot = verify::Fig5().robot;
+  const verify::LevelTops own(scene);
+  const LevelBorders theirs(*scene.ground);
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> place(-0.2, 2.2), yaw(-3, 3);
+  int inside = 0;
+  for (int k = 0; k < 400; ++k) {
+    const Pose2 X_WF{place(random), place(random), yaw(random)};
+    for (const GroundLevel& level : scene.ground->Levels()) {
+      const double is = own.Inside(robot, X_WF, level.height);
+      const double expected = theirs.NearestTo(robot.sole_outline, X_WF, level.number).distance;
+      if (expected > 0) {
+        EXPECT_NEAR(is, expected, 1e-9) << k << " on level " << level.number;
+        ++inside;
+      } else {
+        EXPECT_EQ(is, -1) << k << " on level " << level.number;
+      }
+    }
+    const auto stands = scene.ground->Standing(robot.sole_outline, X_WF);
+    const auto height = own.HeightUnder(robot, X_WF, {});
+    EXPECT_EQ(height.has_value(), stands.has_value());
+    if (stands && height) EXPECT_EQ(*height, stands->height);
+  }
+  EXPECT_GT(inside, 100);
+}
+
+TEST(LevelTops, KnowNamesAndWhatRestsOnALevel) {
+  const Scene scene = Tiles();
+  const RobotModel& robot = verify::Fig5().robot;
+  const verify::LevelTops levels(scene);
+  EXPECT_EQ(levels.HeightNamed("e"), 0.2);
+  EXPECT_EQ(levels.HeightNamed("floor"), 0.0);
+  EXPECT_EQ(levels.HeightNamed("f"), std::nullopt);
+  EXPECT_EQ(levels.Inside(robot, {1.4, 0.7, 0}, 0.1), -1);  // d is there
+  EXPECT_EQ(levels.Inside(robot, {0.5, 0.5, 0}, 0.15), -1);
+  EXPECT_GT(levels.Inside(robot, {0.5, 0.9, 0}, 0.1), 0.1);  // across an edge that a and c share
+}
+
+// A foot's bodies may touch what their sole is above, and nothing else.
+TEST(Distances, OfAFootAreFromWhatIsHigherThanItsSole) {
+  const Scene scene = Tiles();
+  const RobotModel& robot = verify::Fig5().robot;
+  const verify::Distances distances(robot, scene);
+  ASSERT_EQ(distances.num_obstacles(), 5u);
+  for (size_t b = 0; b < robot.bodies.size(); ++b) {
+    const RobotBody& body = robot.bodies[b];
+    const bool of_foot = body.leg >= 0 && body.link == 5;
+    EXPECT_EQ(distances.MustKeepOff(b, 0, {0.1, 0.1}), !of_foot) << body.name;
+    EXPECT_TRUE(distances.MustKeepOff(b, 4, {0.1, 0.1})) << body.name;
+    EXPECT_TRUE(distances.MustKeepOff(b, 0, {0.0999, 0.0999})) << body.name;
+  }
+}
+
+}  // namespace
+}  // namespace halfstep
