@@ -10,6 +10,7 @@
 #include "experiments/commands/commands.h"
 #include "experiments/tables/csv_columns.h"
 #include "tests/experiments/child_process.h"
+#include "tests/experiments/made_once.h"
 #include "tests/experiments/parsed_csv.h"
 #include "tests/temporary_folder.h"
 
@@ -66,19 +67,19 @@ void CheckSchema(const fs::path& path) {
   EXPECT_EQ(names, table.header());
 }
 
+void MakeRaw(const TemporaryFolder& place) {
+  CopyMadeOnce(place.path(), {"run", ShippedConfig("fig3_two_half_steps"), "--out", "raw",
+                              "--quiet", "--set", "smoothing.methods=[]"});
+}
+
 // A run with every table that there is, and a comparison of it.
 void MakeTables(const TemporaryFolder& place) {
-  const Outcome run =
-      Halfstep(place.path(), {"run", ShippedConfig("fig3_two_half_steps"), "--out", "run",
+  CopyMadeOnce(place.path(), {"run", ShippedConfig("fig3_two_half_steps"), "--out", "run",
                               "--quiet", "--set", "smoothing.methods=[dichotomy, halfstep/barrier]",
                               "--set", "smoothing.optimizer.program=pareto", "--set",
                               "smoothing.optimizer.pareto_points=2", "--set",
                               "smoothing.optimizer.rounds=2", "--set", "output.period_s=0.02"});
-  ASSERT_EQ(run.status, kSuccess) << run.err;
-  const Outcome plain =
-      Halfstep(place.path(), {"run", ShippedConfig("fig3_two_half_steps"), "--out", "raw",
-                              "--quiet", "--set", "smoothing.methods=[]"});
-  ASSERT_EQ(plain.status, kSuccess) << plain.err;
+  MakeRaw(place);
   for (const std::string name : {"run", "raw"}) {
     const Outcome compared =
         Halfstep(place.path(), {"compare", name, "--out", "compared-" + name, "--quiet"});
@@ -100,13 +101,10 @@ TEST(CsvSchema, StandsBesideEveryCsvAndFitsIt) {
 
 TEST(CsvSchema, CertifyWritesItAnew) {
   const TemporaryFolder place;
-  ASSERT_EQ(Halfstep(place.path(), {"run", ShippedConfig("fig3_two_half_steps"), "--out", "run",
-                                    "--quiet", "--set", "smoothing.methods=[]"})
-                .status,
-            kSuccess);
-  fs::remove(place / "run/raw/certificate.schema.json");
-  ASSERT_EQ(Halfstep(place.path(), {"certify", "run", "--quiet"}).status, kSuccess);
-  CheckSchema(place / "run/raw/certificate.csv");
+  MakeRaw(place);
+  fs::remove(place / "raw/raw/certificate.schema.json");
+  ASSERT_EQ(Halfstep(place.path(), {"certify", "raw", "--quiet"}).status, kSuccess);
+  CheckSchema(place / "raw/raw/certificate.csv");
 }
 
 // With the Python that has pandas, in one plain read_csv.

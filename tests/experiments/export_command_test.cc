@@ -7,6 +7,7 @@
 
 #include "experiments/commands/commands.h"
 #include "tests/experiments/child_process.h"
+#include "tests/experiments/made_once.h"
 #include "tests/experiments/parsed_csv.h"
 #include "tests/temporary_folder.h"
 
@@ -20,10 +21,8 @@ namespace fs = std::filesystem;
 class ExportCommandTest : public testing::Test {
  protected:
   void SetUp() override {
-    ASSERT_EQ(Halfstep(place_.path(), {"run", ShippedConfig("fig3_two_half_steps"), "--out", "run",
-                                       "--quiet", "--set", "smoothing.methods=[dichotomy]"})
-                  .status,
-              kSuccess);
+    CopyMadeOnce(place_.path(), {"run", ShippedConfig("fig3_two_half_steps"), "--out", "run",
+                                 "--quiet", "--set", "smoothing.methods=[dichotomy]"});
   }
   Outcome Export(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), {"export", "run", "--quiet"});

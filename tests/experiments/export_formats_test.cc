@@ -11,6 +11,7 @@
 #include "experiments/replay/simulation.h"
 #include "experiments/tables/trajectory_file.h"
 #include "tests/experiments/child_process.h"
+#include "tests/experiments/made_once.h"
 #include "tests/experiments/parsed_csv.h"
 #include "tests/experiments/schema_check.h"
 #include "tests/temporary_folder.h"
@@ -28,11 +29,9 @@ namespace fs = std::filesystem;
 class ExportFormats : public testing::Test {
  protected:
   void SetUp() override {
-    ASSERT_EQ(Halfstep(place_.path(),
-                       {"run", ShippedConfig("fig5_box"), "--out", "run", "--quiet", "--set",
-                        "smoothing.methods=[dichotomy]", "--set", "output.period_s=0.01"})
-                  .status,
-              kSuccess);
+    CopyMadeOnce(place_.path(),
+                 {"run", ShippedConfig("fig5_box"), "--out", "run", "--quiet", "--set",
+                  "smoothing.methods=[dichotomy]", "--set", "output.period_s=0.01"});
   }
   Outcome Export(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(),

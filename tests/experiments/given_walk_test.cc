@@ -7,6 +7,7 @@
 #include "experiments/config/experiment.h"
 #include "experiments/tables/given_walk_file.h"
 #include "tests/experiments/child_process.h"
+#include "tests/experiments/made_once.h"
 #include "tests/experiments/parsed_csv.h"
 #include "tests/temporary_folder.h"
 #include "wpg/files/input_error.h"
@@ -124,12 +125,11 @@ TEST_F(GivenWalkFile, FilesAreToldByTheirColumns) {
 class GivenWalkCommand : public testing::Test {
  protected:
   void SetUp() override {
-    ASSERT_EQ(Do({"run", ShippedConfig("fig3_two_half_steps"), "--out", "run", "--quiet", "--set",
-                  "smoothing.methods=[dichotomy, halfstep/sqp]", "--set",
-                  "smoothing.optimizer.heights=true", "--set", "smoothing.optimizer.durations=true",
-                  "--set", "output.period_s=0.02"})
-                  .status,
-              kSuccess);
+    CopyMadeOnce(
+        place_.path(),
+        {"run", ShippedConfig("fig3_two_half_steps"), "--out", "run", "--quiet", "--set",
+         "smoothing.methods=[dichotomy, halfstep/sqp]", "--set", "smoothing.optimizer.heights=true",
+         "--set", "smoothing.optimizer.durations=true", "--set", "output.period_s=0.02"});
   }
   Outcome Do(const std::vector<std::string>& arguments) {
     return Halfstep(place_.path(), arguments);

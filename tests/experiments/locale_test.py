@@ -29,6 +29,30 @@ step_set: {x_min_m: 0, x_max_m: 0.2, y_min_m: -0.21, y_max_m: -0.21, spacing_m: 
 swept_volumes: {cell_m: 0.05, displacement_m: 0.05, cache: cache}
 planner: {unimproved_nodes: 0, max_nodes: 2000}
 """
+EPISODE = """name: beside
+robot: hrp2
+scene: beside.yaml
+goal: {x_m: 0.4, y_m: 0.1, radius_m: 0.05}
+half_step: {duration_s: 1.5, zmp_shift_s: 0.075}
+smoothing: {margins: {double_support_s: 0.075}}
+step_set: {x_min_m: 0, x_max_m: 0.2, y_min_m: -0.21, y_max_m: -0.21, spacing_m: 0.2, yaws_rad: [0]}
+swept_volumes: {cell_m: 0.05, displacement_m: 0.05, cache: cache}
+planner: {unimproved_nodes: 0, max_nodes: 2000}
+output: {period_s: 0.01}
+live:
+  horizon_s: 4
+  sensing: {rests_after_s: 0.5}
+  script:
+    - {at_s: 0.3, do: jump, obstacle: bar, xyz: [0.4, 0.95, 0.5]}
+    - {at_s: 1.5, do: goal, goal_m: [0.6, 0.1]}
+"""
+SCENE = """name: beside
+obstacles:
+  - name: bar
+    box: {size_m: [0.1, 0.1, 1.0]}
+    pose: {xyz: [0.4, 1.5, 0.5]}
+    motion: {speed_m_s: 0.05}
+"""
 SWEEP = f"""config: {CONFIGS}/fig3_two_half_steps.yaml
 vary:
   - {{key: output.period_s, values: [0.1, 0.25]}}
@@ -65,8 +89,7 @@ def commands():
                 ["compare", "bar", "fig3", "--out", "compared"],
                 ["sweep", "sweep.yaml", "--jobs", "1", "--out", "swept"],
                 ["report", "bar", "--out", "bar.html"],
-                ["live", f"{ROOT}/experiments/episodes/live_bar.yaml", "--out", "episode",
-                 "--set", "swept_volumes.cell_m=0.05", "--set", "swept_volumes.displacement_m=0.05"],
+                ["live", "episode.yaml", "--out", "episode"],
                 ["verify", "episode"])
     for form in ("csv", "npz", "hrpsys", "joint_trajectory", "mjcf"):
         yield ["export", "bar", "--format", form, "--period", "0.05", "--out", f"bar-{form}"]
@@ -84,6 +107,8 @@ def done_in(folder, locale, environment):
     folder.mkdir()
     (folder / "plan.yaml").write_text(PLAN, encoding="utf-8")
     (folder / "sweep.yaml").write_text(SWEEP, encoding="utf-8")
+    (folder / "episode.yaml").write_text(EPISODE, encoding="utf-8")
+    (folder / "beside.yaml").write_text(SCENE, encoding="utf-8")
     environment = environment | {"LC_ALL": locale, "LANG": locale, "LD_PRELOAD": HOST}
     build = pathlib.Path(HALFSTEP).parents[1]
     python = [sys.executable, "-c", PYTHON]

@@ -1,7 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "experiments/commands/commands.h"
 #include "experiments/replay/simulation.h"
@@ -27,13 +29,16 @@ constexpr const char* kScript =
 /// An episode in the folder `episode`.
 class ReplayEpisodeTest : public testing::Test {
  protected:
-  void SetUp() override {
-    WriteText(place_ / "scene.yaml", BoxAside("2.0"));
-    WriteText(place_ / "walk.yaml", kShortEpisode + std::string(kScript));
+  static void SetUpTestSuite() {
+    made_ = new TemporaryFolder;
+    WriteText(*made_ / "scene.yaml", BoxAside("2.0"));
+    WriteText(*made_ / "walk.yaml", kShortEpisode + std::string(kScript));
     const Outcome live =
-        Halfstep(place_.path(), {"live", "walk.yaml", "--out", "episode", "--quiet"});
+        Halfstep(made_->path(), {"live", "walk.yaml", "--out", "episode", "--quiet"});
     ASSERT_EQ(live.status, kSuccess) << live.err;
   }
+  static void TearDownTestSuite() { delete std::exchange(made_, nullptr); }
+  void SetUp() override { fs::copy(made_->path(), place_.path(), fs::copy_options::recursive); }
   // Makes the script tell of something that was not sensed.
   void Tell(const std::string& from, const std::string& to) {
     const fs::path config = place_ / "episode/config.yaml";
@@ -45,6 +50,7 @@ class ReplayEpisodeTest : public testing::Test {
     return Halfstep(place_.path(), words);
   }
 
+  static inline const TemporaryFolder* made_ = nullptr;
   const TemporaryFolder place_;
 };
 

@@ -18,6 +18,7 @@
 #include "experiments/commands/commands.h"
 #include "experiments/report/report_page.h"
 #include "tests/experiments/child_process.h"
+#include "tests/experiments/made_once.h"
 #include "tests/faults/command_files.h"
 
 namespace halfstep {
@@ -38,11 +39,6 @@ struct Scenario {
 
 void PrintTo(const Scenario& scenario, std::ostream* out) { *out << scenario.name; }
 
-void Do(const fs::path& place, const std::vector<std::string>& command) {
-  const Outcome outcome = Halfstep(place, command);
-  ASSERT_EQ(outcome.status, kSuccess) << outcome.err;
-}
-
 const std::string kWalk = ShippedConfig("fig3_two_half_steps");
 
 std::vector<std::string> RunCommandOf(const std::string& out, const std::string& period) {
@@ -54,7 +50,7 @@ std::vector<std::string> RunCommandOf(const std::string& out, const std::string&
           "--overwrite"};
 }
 
-void MakeRun(const fs::path& place) { Do(place, RunCommandOf("a", "0.1")); }
+void MakeRun(const fs::path& place) { CopyMadeOnce(place, RunCommandOf("a", "0.1")); }
 
 void WritePlanConfig(const fs::path& place) {
   WriteText(place / "plan.yaml",

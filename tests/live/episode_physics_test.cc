@@ -77,7 +77,7 @@ LiveConfig Covering() {
 }
 
 // A bar is put into the way of a robot that sees it.
-PlayedInPhysics BarInTheWay() {
+PlayedInPhysics PlayBarInTheWay() {
   LiveConfig config = Covering();
   config.live.script = {Event(1.2, "jump", "bar", {0.75, 0.1, 0.02})};
   Scene scene;
@@ -85,9 +85,14 @@ PlayedInPhysics BarInTheWay() {
   return PlayInPhysics(scene, config);
 }
 
+const PlayedInPhysics& BarInTheWay() {
+  static const PlayedInPhysics played = PlayBarInTheWay();
+  return played;
+}
+
 TEST(EpisodePhysicsTest, ArrivesInTheWorldAndTouchesNothing) {
   SKIP_WITHOUT_PHYSICS();
-  const auto [episode, outcome] = BarInTheWay();
+  const auto& [episode, outcome] = BarInTheWay();
   EXPECT_EQ(episode.ending, EpisodeEnding::kArrived);
   // Nothing but the jump was a contradiction: the drift is covered.
   EXPECT_EQ(TimesOf(episode, "contradicted"), 1);
@@ -103,7 +108,7 @@ TEST(EpisodePhysicsTest, ArrivesInTheWorldAndTouchesNothing) {
 
 TEST(EpisodePhysicsTest, TheSameAgainToTheByte) {
   SKIP_WITHOUT_PHYSICS();
-  const PlayedInPhysics one = BarInTheWay(), two = BarInTheWay();
+  const PlayedInPhysics &one = BarInTheWay(), two = PlayBarInTheWay();
   EXPECT_EQ(TablesText(one.episode), TablesText(two.episode));
   EXPECT_EQ(ReplayCsv(one.outcome.replayed.result.rows).text,
             ReplayCsv(two.outcome.replayed.result.rows).text);

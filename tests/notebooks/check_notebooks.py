@@ -22,6 +22,7 @@ try:
     import matplotlib.image
     import nbformat
     import pandas  # noqa: F401, the notebooks need it
+    from nbclient.util import run_sync
     from nbconvert.preprocessors import CellExecutionError, ExecutePreprocessor
     from jupyter_client.kernelspec import NoSuchKernel
     from traitlets.config import Config
@@ -47,20 +48,39 @@ def colour(png):
     return float((pixels.max(axis=-1) - pixels.min(axis=-1) > 0.1).mean())
 
 
-def figures_of(path):
+class Kernels:
+    """Runs notebooks of one folder in one kernel, whose names are forgotten between them."""
+
+    def __init__(self):
+        # Sockets in a folder of ours: a port that is free when a kernel is told of it may be another
+        # program's when the kernel opens it.
+        config = Config({"KernelManager": {
+            "transport": "ipc", "ip": os.environ["JUPYTER_RUNTIME_DIR"] + "/kernel"}})
+        self.executor = ExecutePreprocessor(timeout=120, kernel_name="python3", config=config)
+        self.manager, self.folder = None, None
+
+    def run(self, notebook, folder):
+        if self.folder != folder:
+            self.close()
+            self.manager, self.folder = self.executor.create_kernel_manager(), folder
+        notebook.cells.insert(0, nbformat.v4.new_code_cell("%reset -f"))
+        self.executor.preprocess(notebook, {"metadata": {"path": str(folder)}}, km=self.manager)
+
+    def close(self):
+        if self.manager is not None:
+            run_sync(self.manager.shutdown_kernel)(now=True)
+        self.manager = self.folder = None
+
+
+def figures_of(path, kernels):
     """PNG files that a notebook draws, in their order."""
     notebook = nbformat.read(path, as_version=4)
     nbformat.validate(notebook)
     cells = [cell for cell in notebook.cells if cell.cell_type == "code"]
     if any(cell.outputs or cell.execution_count for cell in cells):
         raise Refused("committed with outputs: clear them")
-    # Sockets in a folder of ours: a port that is free when a kernel is told of it may be another
-    # program's when the kernel opens it.
-    config = Config({"KernelManager": {"transport": "ipc",
-                                       "ip": os.environ["JUPYTER_RUNTIME_DIR"] + "/kernel"}})
     try:
-        ExecutePreprocessor(timeout=120, kernel_name="python3", config=config).preprocess(
-            notebook, {"metadata": {"path": str(path.parent)}})
+        kernels.run(notebook, path.parent)
     except CellExecutionError as error:
         raise Refused(f"a cell raises: {error}") from error
     outputs = [output for cell in cells for output in cell.outputs]
@@ -82,10 +102,14 @@ def main():
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as scratch:  # not the user's folders
         os.environ["IPYTHONDIR"] = os.environ["JUPYTER_RUNTIME_DIR"] = scratch
-        return check(options)
+        kernels = Kernels()
+        try:
+            return check(options, kernels)
+        finally:
+            kernels.close()
 
 
-def check(options):
+def check(options, kernels):
     """Exit status."""
     failures = 0
     paths = [path for given in options.notebooks
@@ -95,7 +119,7 @@ def check(options):
             print(f"{path.name}: skipped, halfstep's Python module was not built")
             continue
         try:
-            figures = figures_of(path.resolve())
+            figures = figures_of(path.resolve(), kernels)
             said, fine = f"{len(figures)} figures", not options.refused
             for number, figure in enumerate(figures if options.figures else [], 1):
                 options.figures.mkdir(parents=True, exist_ok=True)

@@ -37,6 +37,11 @@ HomotopyParameters FastestOf(const Experiment& e, ParameterChoice choice, int ro
   return result.parameters;
 }
 
+double PlainOverTheBar() {
+  static const double shortest = DurationOf(FastestOf(LoadExperiment("bar_8cm"), {}));
+  return shortest;
+}
+
 TEST(FormsScenario, TogetherTheyShortenAWalkOverABox) {
   const Experiment e = LoadExperiment("fig5_box");
   ParameterChoice forms = EveryFamily();
@@ -54,7 +59,7 @@ TEST(FormsScenario, TogetherTheyShortenAWalkOverABox) {
 TEST(FormsScenario, FootstepsThatMoveShortenAWalkOverABar) {
   Experiment e = LoadExperiment("bar_8cm");
   const HomotopyParameters moved = FastestOf(e, {.footsteps = true});
-  EXPECT_LT(DurationOf(moved), 0.995 * DurationOf(FastestOf(e, {})));
+  EXPECT_LT(DurationOf(moved), 0.995 * PlainOverTheBar());
   for (const size_t j : {2, 3}) EXPECT_EQ(moved.footstep_xs[j], 0.0);
   EXPECT_LT(moved.footstep_ys[1], -0.01);
   // Between the soles; FastestOf certifies that none comes there.
@@ -78,7 +83,7 @@ TEST(FormsScenario, WindowsShortenAWalkOverABar) {
   const Experiment e = LoadExperiment("bar_8cm");
   ParameterChoice forms = EveryFamily();
   forms.footsteps = false;
-  EXPECT_LE(DurationOf(FastestOf(e, forms, 6, true)), 0.85 * DurationOf(FastestOf(e, {})));
+  EXPECT_LE(DurationOf(FastestOf(e, forms, 6, true)), 0.85 * PlainOverTheBar());
 }
 
 TEST(FormsScenario, AFormThatIsFixedStays) {
