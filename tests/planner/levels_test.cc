@@ -141,7 +141,9 @@ TEST(LevelPlanning, ClimbsStairs) {
 
 // A goal on a level is not reached on another one beside it.
 TEST(LevelPlanning, AGoalMayBeOnALevel) {
-  GoalRegion goal{.X_WG = {1.0, 0.0, 0.0}, .radius = 0.3};
+  GoalRegion goal;
+  goal.X_WG = {1.0, 0.0, 0.0};
+  goal.radius = 0.3;
   const Foothold high({1.0, 0.1, 0.0}, 0.15), low = Foothold::Level({1.0, -0.1, 0.0});
   EXPECT_TRUE(goal.ContainsLanding(Side::kLeft, high, low));
   EXPECT_TRUE(goal.ContainsLanding(Side::kRight, low, high));

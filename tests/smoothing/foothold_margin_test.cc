@@ -12,8 +12,6 @@
 namespace halfstep {
 namespace {
 
-constexpr MarginFamily kFamily = MarginFamily::kFoothold;
-
 // A block from x on, which the soles keep off.
 Scene BlockFrom(double x) {
   Eigen::Matrix2Xd polygon(2, 4);
@@ -32,14 +30,14 @@ TEST(FootholdMargin, OnlySolesInsideTheirLevelAreCertified) {
   const HalfStepSequence sequence = TwoSteps(robot);
   const SuperposedWalk walk(sequence, Overlapped(sequence, 0.6));
   const auto certify = [&](double gap, double demanded, Certificate* certificate) {
-    return Certify(robot, BlockFrom(Front(robot) + gap), Only(kFamily, demanded), walk,
-                   certificate);
+    return Certify(robot, BlockFrom(Front(robot) + gap), Only(MarginFamily::kFoothold, demanded),
+                   walk, certificate);
   };
   Certificate certificate;
   ASSERT_EQ(certify(0.02, 0.019, &certificate).verdict, Verdict::kFeasible);
   double least = kUnlimited;
   for (const CertificateRow& row : certificate) {
-    if (row.family != kFamily) continue;
+    if (row.family != MarginFamily::kFoothold) continue;
     EXPECT_EQ(row.count, 2);
     EXPECT_LE(row.bound, 1e-11);  // a sole that stands does not move
     least = std::min(least, row.margin.value);
@@ -49,7 +47,7 @@ TEST(FootholdMargin, OnlySolesInsideTheirLevelAreCertified) {
        std::vector<std::pair<double, double>>{{-0.001, 0.0}, {0.02, 0.021}, {0.0049, 0.005}}) {
     const Feasibility answer = certify(gap, demanded, &certificate);
     EXPECT_EQ(answer.verdict, Verdict::kViolated) << gap;
-    EXPECT_EQ(answer.witness.family, kFamily);
+    EXPECT_EQ(answer.witness.family, MarginFamily::kFoothold);
     const MarginEvaluator evaluator(robot, BlockFrom(Front(robot) + gap), {});
     EXPECT_EQ(evaluator.Subject(answer.witness).substr(5), " foot - block");
   }
@@ -59,18 +57,20 @@ TEST(FootholdMargin, IsAbsentWhereOneLevelIsEverywhere) {
   const RobotModel robot = Hrp2();
   const MarginEvaluator flat(robot, {}, {}), uneven(robot, BlockFrom(1.0), {});
   const auto has = [](const MarginEvaluator& evaluator) {
-    return std::ranges::count(evaluator.families(), kFamily) == 1;
+    return std::ranges::count(evaluator.families(), MarginFamily::kFoothold) == 1;
   };
   EXPECT_FALSE(has(flat));
   EXPECT_TRUE(has(uneven));
   const HalfStepSequence sequence = TwoSteps(robot);
   const SuperposedWalk walk(sequence, PlannedMotion(sequence));
   MarginEvaluator::Scratch scratch = flat.MakeScratch();
-  EXPECT_EQ(Nth(flat.At(walk, walk.Locate(0.5), &scratch), kFamily).value, kUnlimited);
+  EXPECT_EQ(Nth(flat.At(walk, walk.Locate(0.5), &scratch), MarginFamily::kFoothold).value,
+            kUnlimited);
   Certificate certificate;
-  (void)Certify(robot, {}, Only(kFamily, 0.005), walk, &certificate);
-  EXPECT_TRUE(std::ranges::none_of(
-      certificate, [](const CertificateRow& row) { return row.family == kFamily; }));
+  (void)Certify(robot, {}, Only(MarginFamily::kFoothold, 0.005), walk, &certificate);
+  EXPECT_TRUE(std::ranges::none_of(certificate, [](const CertificateRow& row) {
+    return row.family == MarginFamily::kFoothold;
+  }));
 }
 
 TEST(FootholdMargin, CountsForSolesThatStandOnly) {
@@ -81,7 +81,7 @@ TEST(FootholdMargin, CountsForSolesThatStandOnly) {
   MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
   for (double t = 0.0; t <= walk.duration(); t += 0.05) {
     const LocalTime at = walk.Locate(t);
-    const Margin margin = Nth(evaluator.At(walk, at, &scratch), kFamily);
+    const Margin margin = Nth(evaluator.At(walk, at, &scratch), MarginFamily::kFoothold);
     double nearest = kUnlimited;
     for (const Side side : {Side::kLeft, Side::kRight}) {
       if (walk.InAir(at, side)) continue;
