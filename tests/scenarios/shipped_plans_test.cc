@@ -14,7 +14,7 @@ std::vector<std::string> ShippedPlans() {
   std::vector<std::string> names;
   for (const std::filesystem::path& path : YamlFiles(HALFSTEP_SOURCE_DIR "/experiments/configs")) {
     // Asked of the text: every test of this program lists these names when it begins.
-    // A shin of stairs_15cm meets the next tread, as the config says.
+    // As planned a shin of stairs_15cm meets the next tread, as the config says.
     if (path.stem() == "stairs_15cm") continue;
     if (ReadText(path).find("\nfootsteps:") != std::string::npos) {
       names.push_back(path.stem().string());
