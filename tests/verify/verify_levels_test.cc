@@ -41,8 +41,8 @@ size_t ColumnOf(const Table& table, const std::string& name) {
 }
 
 // Adds to a number in a row of a table of the run, counted from the header.
-std::function<void(TamperedRun&)> Add(const std::string& file, const std::string& column,
-                                      size_t row, double by) {
+std::function<void(TamperedRun&)> AddTo(const std::string& file, const std::string& column,
+                                        size_t row, double by) {
   return [=](TamperedRun& run) {
     TamperedRun::EditCsv(run.run() / file, [&](Table& table) {
       std::string& cell = table.at(row).at(ColumnOf(table, column));
@@ -51,30 +51,30 @@ std::function<void(TamperedRun&)> Add(const std::string& file, const std::string
   };
 }
 
-std::function<void(TamperedRun&)> InScene(const std::string& old, const std::string& by) {
+std::function<void(TamperedRun&)> InGround(const std::string& old, const std::string& by) {
   return [=](TamperedRun& run) { TamperedRun::Replace(run.scene(), old, by); };
 }
 
-std::vector<CertificateForgery> Forgeries() {
+std::vector<CertificateForgery> ForgeriesOnLevels() {
   return {
-      {"TreadHigher", InScene("height_m: 0.1", "height_m: 0.101"),
+      {"TreadHigher", InGround("height_m: 0.1", "height_m: 0.101"),
        "footsteps.csv:4: not the footstep of config.yaml"},
-      {"TreadLower", InScene("height_m: 0.1", "height_m: 0.099"),
+      {"TreadLower", InGround("height_m: 0.1", "height_m: 0.099"),
        "footsteps.csv:4: not the footstep of config.yaml"},
       {"RiserNearer",
-       InScene("[[0.14, -1], [0.7, -1], [0.7, 1], [0.14, 1]]",
-               "[[0.135, -1], [0.7, -1], [0.7, 1], [0.135, 1]]"),
+       InGround("[[0.14, -1], [0.7, -1], [0.7, 1], [0.14, 1]]",
+                "[[0.135, -1], [0.7, -1], [0.7, 1], [0.135, 1]]"),
        "foothold: margin"},
       // The outline reaches back to x = 0.149 m.
       {"FootOverAnEdge",
-       InScene("[[0.14, -1], [0.7, -1], [0.7, 1], [0.14, 1]]",
-               "[[0.15, -1], [0.7, -1], [0.7, 1], [0.15, 1]]"),
+       InGround("[[0.14, -1], [0.7, -1], [0.7, 1], [0.14, 1]]",
+                "[[0.15, -1], [0.7, -1], [0.7, 1], [0.15, 1]]"),
        "config.yaml: footsteps[0]: no level of the scene bears all of the sole"},
-      {"HeightOfAFootstep", Add("footsteps.csv", "z_m", 3, 1e-3),
+      {"HeightOfAFootstep", AddTo("footsteps.csv", "z_m", 3, 1e-3),
        "footsteps.csv:4: not the footstep of config.yaml"},
-      {"RiseOfTheWaist", Add("dichotomy/half_steps.csv", "rise_begin", 3, -0.1),
+      {"RiseOfTheWaist", AddTo("dichotomy/half_steps.csv", "rise_begin", 3, -0.1),
        "off the walk of half_steps.csv"},
-      {"WaistOfARow", Add("dichotomy/trajectory.csv", "waist_z_m", 100, 1e-4),
+      {"WaistOfARow", AddTo("dichotomy/trajectory.csv", "waist_z_m", 100, 1e-4),
        "waist is off the walk of half_steps.csv"},
       {"MarginOfFoothold",
        [](TamperedRun& run) {
@@ -102,7 +102,7 @@ std::vector<CertificateForgery> Forgeries() {
 
 class ForgedLevels : public testing::TestWithParam<CertificateForgery> {};
 TEST_P(ForgedLevels, IsRefusedForItsReason) { ExpectRefused(kOntoPlatform, GetParam()); }
-INSTANTIATE_TEST_SUITE_P(Verify, ForgedLevels, testing::ValuesIn(Forgeries()),
+INSTANTIATE_TEST_SUITE_P(Verify, ForgedLevels, testing::ValuesIn(ForgeriesOnLevels()),
                          [](const auto& info) { return info.param.name; });
 
 // Tiles of two heights, one of which rests on another, and a hole; the floor is below.
@@ -141,7 +141,9 @@ TEST(LevelTops, AreTheLevelsOfThePlanner) {
     const auto stands = scene.ground->Standing(robot.sole_outline, X_WF);
     const auto height = own.HeightUnder(robot, X_WF, {});
     EXPECT_EQ(height.has_value(), stands.has_value());
-    if (stands && height) EXPECT_EQ(*height, stands->height);
+    if (stands && height) {
+      EXPECT_EQ(*height, stands->height);
+    }
   }
   EXPECT_GT(inside, 100);
 }
