@@ -45,6 +45,9 @@ HomotopyParameters ToParameters(const WalkPlan& plan) {
     parameters.of(ParameterFamily::kFootRamp).push_back(plan.foot_ramp_of(i));
     parameters.of(ParameterFamily::kFootDelay).push_back(plan.foot_delay_of(i));
     parameters.of(ParameterFamily::kLiftShare).push_back(plan.lift_share_of(i));
+    // Nothing rises: all of it is on the floor.
+    parameters.of(ParameterFamily::kRiseBegin).push_back(HalfStepShape().rise_begin);
+    parameters.of(ParameterFamily::kRiseEnd).push_back(HalfStepShape().rise_end);
     if (i % 2 == 1) continue;
     const FloorPose move = plan.footsteps.empty() ? FloorPose{} : plan.footsteps[i / 2];
     parameters.footstep_xs.push_back(move.x);
