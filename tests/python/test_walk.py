@@ -18,7 +18,8 @@ class Walks(unittest.TestCase):
                                  "support_points": 1, "via_laterals": 1, "foot_ramps": 2,
                                  "foot_delays": 2, "lift_shares": 2, "via_alongs": 1,
                                  "zmp_shifts": 2, "zmp_bump_ramps": 2, "footstep_xs": 1,
-                                 "footstep_ys": 1, "footstep_yaws": 1})
+                                 "footstep_ys": 1, "footstep_yaws": 1,
+                                 "rise_begins": 2, "rise_ends": 2})
         self.assertAlmostEqual(self.walk.duration, self.experiment.planned.duration - 0.6)
         np.testing.assert_allclose(self.walk.starts, [0.0, 1.4])
 
@@ -66,7 +67,7 @@ class Walks(unittest.TestCase):
                                     footstep_xs=[0.01], footstep_yaws=[0.05])
         for t in (0.5, 1.2, 1.7, 2.6):
             found = walk.sensitivities(t, hold="time")
-            self.assertEqual(found.value.shape, (len(found.parameters), 13))
+            self.assertEqual(found.value.shape, (len(found.parameters), 14))
             for i, (family, index) in enumerate(found.parameters):
                 states = []
                 for sign in (1, -1):

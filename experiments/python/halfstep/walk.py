@@ -19,22 +19,22 @@ __all__ = ["Certificate", "MarginGradients", "Sensitivities", "Walk"]
 
 QUANTITIES = ("com_x", "com_y", "zmp_x", "zmp_y", "waist_yaw",
               "left_foot_x", "left_foot_y", "left_foot_z", "left_foot_yaw",
-              "right_foot_x", "right_foot_y", "right_foot_z", "right_foot_yaw")
+              "right_foot_x", "right_foot_y", "right_foot_z", "right_foot_yaw", "waist_z")
 
 
 class Sensitivities(NamedTuple):
-    """Derivatives of a walk's 13 quantities with respect to its parameters."""
+    """Derivatives of a walk's 14 quantities with respect to its parameters."""
 
     parameters: list[tuple[str, int]]
     """(family, index from 0) of each of the k parameters on which the instant depends."""
     value: np.ndarray
-    """Of the quantities (k×13) [m or rad per the parameter's unit]."""
+    """Of the quantities (k×14) [m or rad per the parameter's unit]."""
     velocity: np.ndarray
-    """Of their first time derivatives (k×13)."""
+    """Of their first time derivatives (k×14)."""
     acceleration: np.ndarray
-    """Of their second time derivatives (k×13)."""
+    """Of their second time derivatives (k×14)."""
     quantities: tuple[str, ...] = QUANTITIES
-    """The names of the 13 quantities."""
+    """The names of the 14 quantities."""
 
 
 class MarginGradients(NamedTuple):
@@ -166,7 +166,7 @@ class Walk:
         return of_arrays(self._walk.margins(self._times(period, times)))
 
     def sensitivities(self, t: float, hold: str = "half_step") -> Sensitivities:
-        """Analytic derivatives of the 13 quantities at t [s] along all parameters that matter.
+        """Analytic derivatives of the 14 quantities at t [s] along all parameters that matter.
 
         ``hold="half_step"``: the instant keeps its name (half-step, time since it began), and moves
         with it when earlier parameters change. ``hold="time"``: at the same absolute time.
