@@ -144,7 +144,7 @@ TEST(ExperimentConfig, FootstepsCsvHasHeightsWhereTheGroundIsUneven) {
   const Experiment e = Prepare(LoadConfig((kConfigs / "stairs_10cm.yaml").string(), {}));
   const CsvFile table = FootstepsCsv(e.sequence);
   EXPECT_THAT(table.text, testing::StartsWith("footstep,foot,x_m,y_m,z_m,yaw_rad,"));
-  EXPECT_THAT(table.text, testing::HasSubstr("\n3,right,0.84,-0.105,0.3,0,"));
+  EXPECT_THAT(table.text, testing::HasSubstr("\n3,right,0.84,-0.085,0.3,0.0,"));
   const Experiment flat = Prepare(LoadConfig((kConfigs / "bar_8cm.yaml").string(), {}));
   EXPECT_THAT(FootstepsCsv(flat.sequence).text,
               testing::StartsWith("footstep,foot,x_m,y_m,yaw_rad,"));
@@ -323,8 +323,8 @@ TEST(ExperimentConfig, AllFamiliesAreVariablesUnlessToldNot) {
     // The default; a config that names some of them has these alone.
     EXPECT_EQ(choice_of("").moves(family), traits.move == nullptr) << traits.key;
     EXPECT_EQ(choice_of("footsteps: true").moves(family), true) << traits.key;
-    const bool named =
-        family == ParameterFamily::kHeightScale || family == ParameterFamily::kDuration;
+    const bool named = family == ParameterFamily::kHeightScale ||
+                       family == ParameterFamily::kDuration || traits.of_heights;
     EXPECT_EQ(choice_of("heights: true, durations: true").moves(family), named) << traits.key;
     EXPECT_FALSE(choice_of("all_families: false").moves(family)) << traits.key;
   }

@@ -78,12 +78,20 @@ TEST(ExplainConfig, DefaultsAndKeysAreThoseOfAResolvedConfig) {
                                           "smoothing.limits.landing_speed_m_s",
                                           "smoothing.limits.joint_acceleration_rad_s2",
                                           "smoothing.margins.foothold_m",
+                                          "half_step.rise_begin",
+                                          "half_step.rise_end",
+                                          "half_step.crouch_m",
+                                          "goal.level",
                                           "footsteps.N.z_m",
                                           "start.left.z_m",
                                           "start.right.z_m"};
   for (LevelChoice* on : {&config.start_left_on, &config.start_right_on, &config.footsteps[0].on}) {
     *on = {"floor", 0.0};
   }
+  config.goal.level = "floor";
+  config.half_step.rise_begin = 0.5;
+  config.half_step.rise_end = 0.9;
+  config.half_step.crouch = 0.01;
   MarginLimits& limits = config.smoothing.limits;
   for (const MarginFamily family : {MarginFamily::kJointAcceleration, MarginFamily::kDoubleSupport,
                                     MarginFamily::kLandingSpeed, MarginFamily::kFoothold}) {

@@ -132,7 +132,7 @@ def controls_of_names(names):
              ("what `foot_delays, zmp_shiftt` are", "what `foot_delays, zmp_shifts` are"),
              ("the family `self`", "the family `zmp`"), ("the `speed` column", "the `lambda` column"),
              ("`smoothing.margins.zmp_robot` is", "`smoothing.margins.zmp_robot_m` is"),
-             ("`footsteps.3.z_m` is", "`footsteps.3.x_m` is"),
+             ("`footsteps.3.w_m` is", "`footsteps.3.x_m` is"),
              ("run X --set half_step.duration=2", "run X --set half_step.duration_s=2"),
              ('column("zmp_margins_m")', 'column("zmp_margin_m")'),
              ("row.reach_margin_m", "row.reach_m")]
