@@ -8,15 +8,15 @@
 namespace halfstep::verify {
 
 /// Where the numbers of a walk stand in WalkNumbers: CoM x, y and ZMP x, y [m], the waist's yaw
-/// [rad] and how far it is above where it stands on z = 0 [m], and of each sole x, y, z [m] and yaw
-/// [rad].
+/// [rad], of each sole x, y, z [m] and yaw [rad], and how far the waist is above where it stands on
+/// z = 0 [m].
 enum WalkNumber : int {
   kComX = 0,
   kZmpX = 2,
   kWaistYaw = 4,
-  kWaistZ = 5,
-  kLeftX = 6,
-  kRightX = 10,
+  kLeftX = 5,
+  kRightX = 9,
+  kWaistZ = 13,
   kNumWalkNumbers = 14
 };
 using WalkNumbers = Eigen::Matrix<double, kNumWalkNumbers, 1>;  ///< in W
