@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "experiments/config/data_folder.h"
+#include "planner/ground/flat_floor.h"
 #include "planner/ground/level_borders.h"
 #include "planner/ground/level_ground.h"
 #include "planner/scene/doubtful_obstacles.h"
@@ -30,6 +31,8 @@ bool IsShipped(const fs::path& robot) { return !robot.has_parent_path() && !robo
 // robots have stays as the config says. Adds what the tube asks of this robot.
 void FitDemands(Experiment* experiment) {
   MarginLimits& limits = experiment->config.smoothing.limits;
+  // What a tube takes of the ZMP is derived for one level.
+  if (limits.tube != Tube{}) RequireFlatFloor(*experiment->scene.ground, "smoothing.tube");
   limits.raised = RaisedBy(limits.tube, experiment->robot);
   for (const MarginFamily family : AllMarginFamilies()) {
     if (Traits(family).may_be_absent) continue;

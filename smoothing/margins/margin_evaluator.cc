@@ -6,6 +6,7 @@
 
 #include "smoothing/margins/demandable.h"
 #include "smoothing/margins/family_class.h"
+#include "wpg/check.h"
 #include "wpg/files/plain_locale.h"
 #include "wpg/nth.h"
 
@@ -24,6 +25,8 @@ MarginEvaluator::MarginEvaluator(RobotModel robot, Scene scene, MarginLimits lim
 }
 
 void MarginEvaluator::SetLimits(const MarginLimits& limits) {
+  HALFSTEP_CHECK(limits.tube == Tube{} || scene().ground->OnlyLevel(),
+                 "a tube on ground of " << scene().ground->Levels().size() << " levels");
   limits_ = Demandable(limits, robot());
   limits_.own = place().own;
   families_.clear();

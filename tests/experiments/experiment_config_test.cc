@@ -138,6 +138,18 @@ TEST(ExperimentConfig, ALevelIsWrittenWhereItIsSaid) {
                                           testing::HasSubstr("foothold"))));
 }
 
+// What a tube takes of margins is derived for one level.
+TEST(ExperimentConfig, ATubeOnLevelsIsRefused) {
+  const auto prepare = [](const std::string& name) {
+    Prepare(
+        LoadConfig((kConfigs / (name + ".yaml")).string(), {{"smoothing.tube.foot_m", "0.001"}}));
+  };
+  EXPECT_NO_THROW(prepare("bar_8cm"));
+  EXPECT_THAT([&] { prepare("stairs_10cm"); },
+              testing::ThrowsMessage<InputError>(
+                  testing::StartsWith("smoothing.tube: the scene's ground is uneven (4 levels)")));
+}
+
 // A table of footsteps that has heights chooses levels by them.
 TEST(ExperimentConfig, FootstepsCsvHasHeightsWhereTheGroundIsUneven) {
   const TemporaryFolder place;
