@@ -22,8 +22,7 @@ class MarginEvaluator {
   using Scratch = MarginScratch;
 
   /// `robot` and `scene` are copied. Where the robot's masses are not known, limits() demands
-  /// nothing of its ZMP, and nothing of what the robot's files do not limit. Precondition: a tube
-  /// only where the ground is one level (std::logic_error).
+  /// nothing of its ZMP, nor of what its files do not limit. A tube needs one level (logic_error).
   MarginEvaluator(RobotModel robot, Scene scene, MarginLimits limits);
 
   /// The same robot, scene and margins of one's own, shared, with other limits.
