@@ -4,6 +4,7 @@
 
 #include "experiments/tables/csv_reader.h"
 #include "wpg/motion/walk_state.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 

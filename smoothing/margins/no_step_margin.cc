@@ -1,16 +1,13 @@
-#include <cmath>
-
 #include "smoothing/margins/family_class.h"
-#include "wpg/elementary.h"
+#include "smoothing/margins/standing_sole_family.h"
 #include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
 
 // Distance of a standing foot from the no-step areas [m], by the outline of what touches the floor
-// (NoStepAreas); +∞ for a foot in the air, and without areas. There are rows where footsteps move
-// (SlackSink::footsteps_move). Subject: Index(Side). Other: the area.
-class NoStepMargin final : public WholeFamily {
+// (NoStepAreas). Subject: Index(Side). Other: the area.
+class NoStepMargin final : public StandingSoleFamily<NoStepMargin> {
  public:
   static constexpr FamilyTraits kTraits = {
       .family = MarginFamily::kNoStep,
@@ -30,9 +27,7 @@ class NoStepMargin final : public WholeFamily {
       .in_tube = [](const TubeShift& shift) { return shift.sole; },
   };
 
-  explicit NoStepMargin(const MarginPlace& place) : WholeFamily(kTraits), place_(place) {}
-
-  int count() const override { return 2; }
+  explicit NoStepMargin(const MarginPlace& place) : StandingSoleFamily(kTraits), place_(place) {}
 
   std::string Subject(const Margin& margin) const override {
     if (margin.subject < 0) return "both feet";
@@ -41,63 +36,23 @@ class NoStepMargin final : public WholeFamily {
     return margin.other < 0 ? foot : foot + " - no_step[" + std::to_string(margin.other) + "]";
   }
 
-  std::vector<Side> PlacedFeet(const Margin& margin) const override {
-    if (margin.subject < 0) return {};
-    return {static_cast<Side>(margin.subject)};
+  bool Watches() const { return !place_.areas.empty(); }
+  double Reach() const { return place_.areas.sole_reach(); }
+  auto DistanceOf(const WalkState&, Side) const {
+    return [this](const Pose2& X_WF) { return place_.areas.NearestTo(X_WF).distance; };
   }
-
-  Margin Least(Instant* at, double) const override {
-    Margin least = Of(kUnlimited, -1);
-    for (Side side : {Side::kLeft, Side::kRight}) Lower(OfSole(*at, side), &least);
-    return least;
-  }
-
-  void AddRows(Instant* at, SlackSink* rows) const override {
-    if (!rows->footsteps_move || place_.areas.empty()) return;
-    // The distance of two polygons is smooth but where another pair of features becomes the
-    // nearest, so differences tell its slope to some nine digits.
-    constexpr double kStep = 1e-6;
-    for (const Side side : {Side::kLeft, Side::kRight}) {
-      const Margin margin = OfSole(*at, side);
-      if (std::isinf(margin.value)) continue;
-      rows->AddAlong(margin.value, [&](size_t i) {
-        const WalkState& x = at->jet().value;
-        const WalkState move = kStep * rows->sensitivities[i].jet.value;
-        return (place_.areas.NearestTo(FootPose(x + move, side)).distance -
-                place_.areas.NearestTo(FootPose(x - move, side)).distance) /
-               (2.0 * kStep);
-      });
-    }
-  }
-
- protected:
-  void AddBounds(const MarginInterval& interval, TightestStatement* tightest) const override {
-    for (Side side : {Side::kLeft, Side::kRight}) {
-      // A sole that stands does not move: its quantities change by 0 and rounding.
-      const int foot = FootIndex(side);
-      const IntervalMotion& motion = interval.motion;
-      const double moved = Hypot(motion.Change(foot), motion.Change(foot + 1)) +
-                           place_.areas.sole_reach() * motion.Change(foot + 3);
-      const Margin margin = OfSole(interval.mid, side);
-      tightest->Add(margin, (std::isinf(margin.value) ? 0.0 : moved) + interval.mid.rounding());
-    }
-  }
-
- private:
-  // +∞ while it is in the air, or where there are no areas.
-  Margin OfSole(const Instant& at, Side side) const {
-    Margin margin = Of(kUnlimited, Index(side));
-    if (place_.areas.empty() || at.walk().InAir(at.at(), side)) return margin;
+  Margin Standing(const Instant& at, Side side) const {
     MarginScratch::Standing& standing = Nth(at.scratch().standing, Index(side));
     const Pose2 X_WF = FootPose(at.jet().value, side);
     if (!standing.known || standing.X_WF != X_WF) {
       standing = {X_WF, place_.areas.NearestTo(X_WF), true};
     }
-    margin.value = standing.nearest.distance;
+    Margin margin = Of(standing.nearest.distance, Index(side));
     margin.other = standing.nearest.area;
     return margin;
   }
 
+ private:
   const MarginPlace& place_;
 };
 

@@ -11,6 +11,7 @@
 #include "smoothing/methods/walk_problem.h"
 #include "smoothing/proof/certified_feasibility.h"
 #include "smoothing/proof/sampled_feasibility.h"
+#include "tests/smoothing/row_differences.h"
 #include "tests/smoothing/short_walks.h"
 #include "wpg/motion/lipm.h"
 
@@ -315,47 +316,11 @@ TEST(Ground, RowsOfACertificateHoldThroughoutTheirIntervals) {
 
 TEST(Ground, RowsHaveDerivatives) {
   const RobotModel robot = WithBall("LLEG_LINK3", 0.01, 0.01);
-  const HalfStepSequence sequence = TwoSteps(robot);
   const MarginEvaluator evaluator(robot, {}, Only(MarginFamily::kGround, 0.0));
-  SlackEvaluator slacks(evaluator, 6.0);
-  WalkDraw draw(604);
-  int compared = 0;
-  const auto row_of = [](const InstantSlacks& instant) {
-    size_t least = instant.rows.size();
-    for (size_t r = 0; r < instant.rows.size(); ++r) {
-      if (instant.rows[r].family != MarginFamily::kGround) continue;
-      if (least == instant.rows.size() || instant.rows[r].slack < instant.rows[least].slack) {
-        least = r;
-      }
-    }
-    return least;
-  };
-  for (int i = 0; i < Draws(60); ++i) {
-    const HomotopyParameters parameters = draw.Parameters(sequence, 0.1, 0.8);
-    const SuperposedWalk walk(sequence, parameters);
-    const double t = draw.Uniform(0, walk.duration());
-    if (NearKnot(walk, t, 1e-3)) continue;
-    const LocalTime at = walk.Locate(t);
-    InstantSlacks here, sides[2];
-    slacks.At(walk, at, {}, true, &here);
-    const size_t row = row_of(here);
-    ASSERT_LT(row, here.rows.size());
-    for (size_t p = 0; p < here.parameters.size(); ++p) {
-      constexpr double h = 1e-6;
-      for (int s : {0, 1}) {
-        HomotopyParameters moved = parameters;
-        here.parameters[p].in(moved) += s == 0 ? -h : h;
-        slacks.At(SuperposedWalk(sequence, moved), at, {}, false, &sides[s]);
-      }
-      const double slope =
-          (sides[1].rows[row_of(sides[1])].slack - sides[0].rows[row_of(sides[0])].slack) / (2 * h);
-      const double analytic =
-          here.gradient(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(p));
-      EXPECT_NEAR(analytic, slope, 1e-4 * (1 + std::abs(slope)));
-      compared += std::abs(slope) > 1e-3;
-    }
-  }
-  EXPECT_GE(compared, Draws(60));
+  const RowDifferences found =
+      CompareLeastRow(evaluator, TwoSteps(robot), MarginFamily::kGround, 6.0, 604);
+  EXPECT_EQ(found.without_row, 0);
+  EXPECT_GE(found.compared, Draws(60));
 }
 
 }  // namespace

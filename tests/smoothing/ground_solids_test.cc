@@ -9,6 +9,7 @@
 #include "smoothing/margins/foot_solids.h"
 #include "smoothing/margins/slack_evaluator.h"
 #include "tests/planner/blocks_ground.h"
+#include "tests/smoothing/row_differences.h"
 #include "tests/smoothing/short_walks.h"
 #include "wpg/motion/lipm.h"
 #include "wpg/robot/sole_outline.h"
@@ -350,49 +351,11 @@ TEST(GroundSolids, RowsOfACertificateHoldThroughoutTheirIntervals) {
 
 TEST(GroundSolids, RowsHaveDerivatives) {
   const RobotModel robot = Hrp2();
-  const HalfStepSequence sequence = LongStep(robot);
   const Scene scene = On(0.0, {Curb(0.05), Block("block", 0.37, 0.6, -1, 1, 0.09)});
   const MarginEvaluator evaluator(robot, scene, Only(MarginFamily::kFloor, 0.0));
-  SlackEvaluator slacks(evaluator, 20.0);
-  WalkDraw draw(714);
-  int compared = 0;
-  const auto least_of = [](const InstantSlacks& instant) {
-    size_t least = instant.rows.size();
-    for (size_t r = 0; r < instant.rows.size(); ++r) {
-      if (instant.rows[r].family != MarginFamily::kFloor) continue;
-      if (least == instant.rows.size() || instant.rows[r].slack < instant.rows[least].slack) {
-        least = r;
-      }
-    }
-    return least;
-  };
-  for (int i = 0; i < Draws(60); ++i) {
-    const HomotopyParameters parameters = draw.Parameters(sequence, 0.1, 0.8);
-    const SuperposedWalk walk(sequence, parameters);
-    const double t = draw.Uniform(0, walk.duration());
-    if (NearKnot(walk, t, 1e-3)) continue;
-    const LocalTime at = walk.Locate(t);
-    InstantSlacks here, sides[2];
-    slacks.At(walk, at, {}, true, &here);
-    const size_t row = least_of(here);
-    if (row == here.rows.size()) continue;
-    for (size_t p = 0; p < here.parameters.size(); ++p) {
-      constexpr double h = 1e-6;
-      for (int s : {0, 1}) {
-        HomotopyParameters moved = parameters;
-        here.parameters[p].in(moved) += s == 0 ? -h : h;
-        slacks.At(SuperposedWalk(sequence, moved), at, {}, false, &sides[s]);
-      }
-      const double slope =
-          (sides[1].rows[least_of(sides[1])].slack - sides[0].rows[least_of(sides[0])].slack) /
-          (2 * h);
-      const double analytic =
-          here.gradient(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(p));
-      EXPECT_NEAR(analytic, slope, 1e-4 * (1 + std::abs(slope)));
-      compared += std::abs(slope) > 1e-3;
-    }
-  }
-  EXPECT_GE(compared, Draws(60));
+  const RowDifferences found =
+      CompareLeastRow(evaluator, LongStep(robot), MarginFamily::kFloor, 20.0, 714);
+  EXPECT_GE(found.compared, Draws(60));
 }
 
 TEST(SolidGap, IsTheDistanceOfAFlatOutlineFromAPrism) {

@@ -13,6 +13,7 @@
 #include "opt/problem/derivative_check.h"
 #include "smoothing/margins/margin_evaluator.h"
 #include "tests/smoothing/drawn_motion.h"
+#include "tests/smoothing/excess_tally.h"
 #include "tests/smoothing/hand_made_motion.h"
 #include "tests/smoothing/robot_truth.h"
 #include "wpg/motion/contact_rate.h"
@@ -27,25 +28,6 @@ namespace halfstep {
 namespace {
 
 constexpr double kPullDown = HandMadeInterval::kGravity;
-
-// How far truths are beyond their bounds, relative to what rounding may make of them, and the
-// nearest to a bound.
-struct LevelsTally {
-  struct Entry {
-    double excess = 0.0, nearest = 0.0;
-    long compared = 0;
-  };
-  std::map<std::string_view, Entry> parts;
-
-  void Compare(std::string_view what, double truth, double bound, double size) {
-    if (!std::isfinite(bound)) return;
-    const double rounding = 1e-12 * (size + 1.0);
-    Entry& part = parts[what];
-    ++part.compared;
-    part.excess = std::max(part.excess, (truth - bound) / rounding);
-    if (truth > 1e3 * rounding) part.nearest = std::max(part.nearest, truth / bound);
-  }
-};
 
 // Soles that rest under a motion, where the line of the ZMPs is between them at its midpoint: as
 // with DrawnFloor, where the robot's feet are has no part in it.
@@ -83,7 +65,7 @@ struct DrawnLevels {
 
 void CompareOnLevels(const RobotModel& robot, const HandMadeMotion& motion,
                      const HandMadeInterval& made, double t, double size, WalkDraw* draw,
-                     LevelsTally* tally) {
+                     ExcessTally* tally) {
   const RobotDynamics& now = *made.at_m;
   if (!now.Zmp() || !(now.contact()[5] > 1e-3)) return;
   const RobotDynamics then = made.At(t);
@@ -152,7 +134,7 @@ TEST(OnLevels, SparseMotionsKeepEveryBound) {
     RobotModel& robot = whole.model;
     const double size = std::min(1.0, LegScale(robot));
     WalkDraw draw(seed++);
-    LevelsTally tally;
+    ExcessTally tally;
     for (int i = 0; i < Draws(800); ++i) {
       DrawSparseMasses(&robot, &draw);
       const HandMadeMotion motion = DrawSparseMotion(robot, size, &draw);

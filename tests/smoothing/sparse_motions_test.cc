@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "tests/smoothing/certificate_draws.h"
+#include "tests/smoothing/excess_tally.h"
 #include "tests/smoothing/hand_made_motion.h"
 #include "tests/smoothing/robot_truth.h"
 #include "wpg/motion/contact_rate.h"
@@ -28,31 +29,6 @@ namespace {
 
 constexpr double kPull = HandMadeInterval::kGravity;
 
-// How far truths are beyond their bounds, relative to what rounding may make of them, and the
-// nearest to a bound.
-struct SparseTally {
-  struct Entry {
-    double excess = 0.0, nearest = 0.0;
-    long compared = 0;
-  };
-  std::map<std::string_view, Entry> parts;
-
-  // `size`: of what truth is a difference of, with all that is multiplied.
-  void Compare(std::string_view what, double truth, double bound, double size) {
-    if (!std::isfinite(bound)) return;
-    const double rounding = 1e-12 * (size + 1.0);
-    Entry& part = parts[what];
-    ++part.compared;
-    part.excess = std::max(part.excess, (truth - bound) / rounding);
-    if (truth > 1e3 * rounding) part.nearest = std::max(part.nearest, truth / bound);
-  }
-  // A vector within a ball, or within one of rates times `time`.
-  void Compare(std::string_view what, const Eigen::Vector3d& truth, const VectorBall& ball,
-               double size, double time = 1.0) {
-    Compare(what, (truth - time * ball.center).norm(), std::abs(time) * ball.radius, size);
-  }
-};
-
 // Place, velocity and acceleration of the point of a body that is `from_O` at the instant.
 struct PointOfBody {
   Eigen::Vector3d p, p1, p2;
@@ -68,7 +44,7 @@ struct PointOfBody {
 };
 
 void CompareLegs(const RobotModel& robot, const HandMadeMotion& motion,
-                 const HandMadeInterval& made, double t, SparseTally* tally) {
+                 const HandMadeInterval& made, double t, ExcessTally* tally) {
   const Posture posture = made.PostureAt(t);
   const RobotDynamics& now = *made.at_m;
   const RobotDynamics then(robot, motion.At(t), posture, kPull);
@@ -146,7 +122,7 @@ struct DrawnFloor {
 
 void CompareContact(const RobotModel& robot, const HandMadeMotion& motion,
                     const HandMadeInterval& made, double t, double size, WalkDraw* draw,
-                    SparseTally* tally) {
+                    ExcessTally* tally) {
   const RobotDynamics& now = *made.at_m;
   const auto zmp = now.Zmp();
   if (!zmp || !(now.contact()[5] > 1e-3)) return;
@@ -212,7 +188,7 @@ TEST(SparseMotions, KeepEveryBound) {
     RobotModel& robot = whole.model;
     const double size = std::min(1.0, LegScale(robot));
     WalkDraw draw(seed++);
-    SparseTally tally;
+    ExcessTally tally;
     for (int i = 0; i < Draws(1000); ++i) {
       DrawSparseMasses(&robot, &draw);
       const HandMadeMotion motion = DrawSparseMotion(robot, size, &draw);
