@@ -47,8 +47,16 @@ inline constexpr Untold kNeedsGround = {
     kNeedsLegs.of_plan};
 
 /// Why a robot's files do not let anything be demanded of a family, as a sentence without subject;
-/// "" where they let it be.
-using DemandFault = std::string (*)(const RobotModel& robot);
+/// "" where they let it be. A function that no family can leave out.
+class DemandFault {
+ public:
+  using Function = std::string (*)(const RobotModel& robot);         ///< gives the sentence
+  constexpr DemandFault(Function function) : function_(function) {}  ///< as which it is written
+  std::string operator()(const RobotModel& robot) const { return function_(robot); }
+
+ private:
+  Function function_;
+};
 /// Of families that any robot lets be demanded.
 inline std::string AlwaysDemandable(const RobotModel&) { return ""; }
 /// Of families that need the masses of all links.
@@ -68,7 +76,7 @@ using TubeShare = double (*)(const TubeShift& shift);
 
 /// What a certificate does not cover of a family.
 struct FamilyCoverage {
-  DemandFault why_not_demandable = nullptr;  ///< of a robot
+  DemandFault why_not_demandable;  ///< of a robot
   /// The limit without which every margin is +∞, where a config may say that there is none.
   std::optional<double> MarginLimits::*limit = nullptr;
   Assumption assumes = AssumesNothing;  ///< of robot and scene
@@ -124,8 +132,7 @@ constexpr bool IsComplete(const FamilyTraits& t) {
   const bool named = !t.name.empty() && !t.unit.empty() && t.key.starts_with(t.name);
   const bool told = !t.meaning.empty() && !t.remedy.empty() && !t.sentence.inside.empty() &&
                     !t.sentence.beyond.empty();
-  return named && told && t.coverage.why_not_demandable != nullptr && t.scope != MarginScope{} &&
-         t.scale > 0.0;
+  return named && told && t.scope != MarginScope{} && t.scale > 0.0;
 }
 
 /// The traits of a family.
