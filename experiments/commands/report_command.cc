@@ -20,7 +20,6 @@
 #include "experiments/tables/json_file.h"
 #include "experiments/tables/run_folder.h"
 #include "experiments/tables/run_record.h"
-#include "planner/ground/flat_floor.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/whole_file.h"
 
@@ -42,7 +41,6 @@ void WriteInto(const fs::path& folder_path, const Place& place, const Write& wri
 
 void ReportOfRun(const ReportCommand& command, const fs::path& run) {
   const Place place = PlaceOfRun(run, command.tools);
-  RequireFlatFloor(*place.scene.ground, "report");
   if (command.out) {
     WriteWhole(*command.out, {RunReport(place.robot, place.scene, run, command.tools)});
   } else {

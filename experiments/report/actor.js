@@ -13,7 +13,7 @@ import { paths, soleTraces, strobe } from "./traces.js";
 export function footprints(footsteps, sole) {
   const group = new THREE.Group();
   for (const step of footsteps) {
-    const place = { x: step.x_m, y: step.y_m, yaw: step.yaw_rad };
+    const place = { x: step.x_m, y: step.y_m, z: step.z_m, yaw: step.yaw_rad };
     const colour = palette.feet[step.foot === "left" ? 0 : 1];
     const corners = soleCorners(place, sole);
     group.add(mark(polygonGeometry(corners, 0.002), colour, 0.16, 2));
@@ -88,10 +88,11 @@ export class Actor {
     const of = (name) => this.walk.value(name, at);
     this.pairs.showTime(t);
     this.figure.pose(this.walk, at);
-    this.zmp.position.set(of("zmp_x_m"), of("zmp_y_m"), 0.007);
-    this.com.position.set(of("com_x_m"), of("com_y_m"), 0.006);
-    this.plumb.position.set(of("com_x_m"), of("com_y_m"), 0.006);
-    this.plumb.scale.z = of("com_z_m");
+    const ground = this.walk.groundAt(at);
+    this.zmp.position.set(of("zmp_x_m"), of("zmp_y_m"), ground + 0.007);
+    this.com.position.set(of("com_x_m"), of("com_y_m"), ground + 0.006);
+    this.plumb.position.set(of("com_x_m"), of("com_y_m"), ground + 0.006);
+    this.plumb.scale.z = of("com_z_m") - ground;
     const support = this.walk.supportAt(at);
     const sides = support === "both" ? ["left", "right"] : [support];
     const soles = sides.map((side) => this.walk.sole(side, at));

@@ -1,7 +1,7 @@
 // A walk whose parameters were moved by hand: evaluated again and sampled here, nothing is proved.
 import { legAngles, reachMargin } from "./leg_posture.js";
 import { convexHull, soleCorners } from "./floor_marks.js";
-import { SuperposedWalk } from "./superposed_walk.js";
+import { SuperposedWalk, waistZ } from "./superposed_walk.js";
 import { Walk } from "./walk.js";
 
 const period = 0.02; // of the samples [s]
@@ -44,13 +44,16 @@ function fromWaist([wx, wy, yaw], height, sole) {
 
 /** Rows [{name: value}] of a walk in closed form at `times` [s], as in trajectory.csv. */
 export function rowsAt(walk, robot, limits, times) {
-  const { com_ahead_m: ahead, waist_height_m: height, com_height_m: comHeight } = walk.form;
+  const { com_ahead_m: ahead, waist_height_m: waistHeight, com_height_m: comHeight } = walk.form;
+  // The pendulum's height is that of the crouching robot.
+  const comStanding = comHeight + (walk.form.half_steps[0].crouch_m ?? 0);
   const angles = [null, null]; // of the last row
   return times.map((t) => {
     const x = walk.stateAt(t);
     const waist = waistOf(x, ahead);
+    const height = waistHeight + x[waistZ];
     const row = {
-      t_s: t, half_step: walk.halfStepAt(t) + 1, com_x_m: x[0], com_y_m: x[1], com_z_m: comHeight,
+      t_s: t, half_step: walk.halfStepAt(t) + 1, com_x_m: x[0], com_y_m: x[1], com_z_m: comStanding + x[waistZ],
       zmp_x_m: x[2], zmp_y_m: x[3], waist_x_m: waist[0], waist_y_m: waist[1], waist_z_m: height,
       waist_yaw_rad: waist[2], joint_margin_rad: Infinity, reach_m: Infinity,
       foot_speed_margin_m_s: Infinity, support: walk.supportAt(t),

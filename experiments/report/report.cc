@@ -295,8 +295,6 @@ std::string RunReport(const RobotModel& robot, const Scene& scene, const fs::pat
 
 void WriteReport(const RobotModel& robot, const Scene& scene, RunFolder* folder,
                  const Toolbox& tools) {
-  // The page draws no levels yet.
-  if (!scene.ground->OnlyLevel()) return;
   if (HasReport()) folder->Write("report.html", RunReport(robot, scene, folder->staging(), tools));
 }
 

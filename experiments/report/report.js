@@ -48,12 +48,13 @@ let walks = []; // A, and B when there is one
 let actors = [];
 let pending = false;
 
-// What the camera follows: the waist, or the middle between the feet.
+// What the camera follows: the waist, or the middle between the feet; and the ground's height there.
 function centreNow(walk) {
   const at = walk.locate(timeline.t);
   const of = (name) => walk.value(name, at);
-  if (byId("camera").value !== "feet") return [of("waist_x_m"), of("waist_y_m")];
-  return ["x_m", "y_m"].map((axis) => (of(`left_foot_${axis}`) + of(`right_foot_${axis}`)) / 2);
+  const ground = walk.groundAt(at);
+  if (byId("camera").value !== "feet") return [of("waist_x_m"), of("waist_y_m"), ground];
+  return [...["x_m", "y_m"].map((axis) => (of(`left_foot_${axis}`) + of(`right_foot_${axis}`)) / 2), ground];
 }
 
 function draw() {
@@ -61,7 +62,7 @@ function draw() {
   if (!beside) return stage.draw([{ layers: [1, 2], shift: [0, 0] }]);
   // Each view follows its own robot.
   const [a, b] = walks.map(centreNow);
-  const shift = byId("follow").checked ? [b[0] - a[0], b[1] - a[1]] : [0, 0];
+  const shift = byId("follow").checked ? b.map((to, k) => to - a[k]) : [0, 0];
   stage.draw([{ layers: [1], shift: [0, 0] }, { layers: [2], shift }]);
 }
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "experiments/report/drawn_mesh.h"
-#include "planner/ground/flat_floor.h"
+#include "planner/scene/solid_body.h"
 #include "wpg/files/number_text.h"
 #include "wpg/nth.h"
 #include "wpg/robot/robot_legs.h"
@@ -107,10 +107,11 @@ TriangleMesh Surface(const TriangleMesh& mesh) { return mesh; }
 
 namespace {
 
-// In the order of the scene.
-std::vector<const Obstacle*> NearestObstacles(const Scene& scene, const Eigen::Vector2d& middle_W) {
+// In their order.
+std::vector<const Obstacle*> Nearest(const std::vector<Obstacle>& obstacles,
+                                     const Eigen::Vector2d& middle_W) {
   std::vector<const Obstacle*> nearest;
-  for (const Obstacle& obstacle : scene.obstacles) nearest.push_back(&obstacle);
+  for (const Obstacle& obstacle : obstacles) nearest.push_back(&obstacle);
   if (nearest.size() <= kMostObstacles) return nearest;
   const auto far = [&](const Obstacle* o) {
     return (o->X_WO.translation().head<2>() - middle_W).squaredNorm();
@@ -124,12 +125,28 @@ std::vector<const Obstacle*> NearestObstacles(const Scene& scene, const Eigen::V
   return nearest;
 }
 
+// " (3 of 5 solids drawn)" where some are left out.
+std::string LeftOut(size_t drawn, size_t all, const char* what) {
+  if (drawn == all) return "";
+  return " (" + std::to_string(drawn) + " of " + std::to_string(all) + " " + what + " drawn)";
+}
+
+// What stands out of the floor, and whether there is a floor.
+json GroundJson(const Ground& ground, const std::vector<const Obstacle*>& drawn) {
+  json solids = json::array();
+  for (const Obstacle* solid : drawn) {
+    const TriangleMesh surface =
+        std::visit([](const auto& shape) { return Surface(BodyOf(shape)); }, solid->shape);
+    solids.push_back(MeshJson(surface, solid->X_WO));
+  }
+  return {{"floor", std::isfinite(ground.Floor())}, {"solids", std::move(solids)}};
+}
+
 }  // namespace
 
 json SceneJson(const Scene& scene, const Eigen::Vector2d& middle_W) {
-  RequireFlatFloor(*scene.ground, "report");
   json obstacles = json::array(), areas = json::array();
-  const std::vector<const Obstacle*> drawn_ones = NearestObstacles(scene, middle_W);
+  const std::vector<const Obstacle*> drawn_ones = Nearest(scene.obstacles, middle_W);
   const auto meshes = std::count_if(drawn_ones.begin(), drawn_ones.end(), [](const Obstacle* o) {
     return std::holds_alternative<TriangleMesh>(o->shape);
   });
@@ -157,14 +174,17 @@ json SceneJson(const Scene& scene, const Eigen::Vector2d& middle_W) {
     }
     areas.push_back(std::move(corners));
   }
-  std::string name = scene.name;
-  if (drawn_ones.size() < scene.obstacles.size()) {
-    name += " (" + std::to_string(drawn_ones.size()) + " of " +
-            std::to_string(scene.obstacles.size()) + " obstacles drawn)";
-  }
-  return {{"name", std::move(name)},
-          {"obstacles", std::move(obstacles)},
-          {"no_step", std::move(areas)}};
+  std::vector<Obstacle> solids;
+  for (const GroundSolid& solid : scene.ground->Solids()) solids.push_back(BodyOf(solid));
+  const std::vector<const Obstacle*> drawn_solids = Nearest(solids, middle_W);
+  json made = {
+      {"name", scene.name + LeftOut(drawn_ones.size(), scene.obstacles.size(), "obstacles") +
+                   LeftOut(drawn_solids.size(), solids.size(), "solids of the ground")},
+      {"obstacles", std::move(obstacles)},
+      {"no_step", std::move(areas)}};
+  // The plane z = 0 says nothing.
+  if (!solids.empty()) made["ground"] = GroundJson(*scene.ground, drawn_solids);
+  return made;
 }
 
 json ShapesJson(Scene scene) {

@@ -102,6 +102,12 @@ json TrajectoryJson(const fs::path& path, double spacing) {
   return {{"columns", std::move(columns)}, {"support", SupportOf(shown)}};
 }
 
+// The waist rises where levels change, and only there.
+bool OnOneLevel(const CsvTable& trajectory) {
+  const std::vector<double> z = trajectory.Numbers("waist_z_m");
+  return std::ranges::all_of(z, [&](double height) { return height == z.front(); });
+}
+
 json CellJson(const std::string& cell) {
   if (cell.empty()) return nullptr;
   double value = 0.0;
@@ -153,13 +159,18 @@ json WalkJson(const fs::path& folder, double spacing) {
 json WalkJson(const RobotModel& robot, const fs::path& folder, double spacing) {
   json walk = WalkJson(folder, spacing);
   const ShownRows shown = ReadRows(folder / "trajectory.csv", spacing);
-  std::vector<double> x, y;
-  for (const Eigen::Vector2d& zmp : RobotZmps(robot, shown.table)) {
-    x.push_back(zmp.x());
-    y.push_back(zmp.y());
+  const std::vector<RobotZmp> zmps = RobotZmps(robot, shown.table);
+  const auto add = [&](const std::string& column, Eigen::Vector2d RobotZmp::*of, int axis) {
+    std::vector<double> values;
+    for (const RobotZmp& zmp : zmps) values.push_back((zmp.*of)[axis]);
+    walk["columns"][column] = ColumnJson(values, shown.rows, kFine);
+  };
+  add("zmp_robot_x_m", &RobotZmp::zmp, 0);
+  add("zmp_robot_y_m", &RobotZmp::zmp, 1);
+  if (!OnOneLevel(shown.table)) {
+    add("tilt_x", &RobotZmp::tilt, 0);
+    add("tilt_y", &RobotZmp::tilt, 1);
   }
-  walk["columns"]["zmp_robot_x_m"] = ColumnJson(x, shown.rows, kFine);
-  walk["columns"]["zmp_robot_y_m"] = ColumnJson(y, shown.rows, kFine);
   return walk;
 }
 

@@ -17,7 +17,8 @@ namespace halfstep {
 /// Throws InputError for what is no such folder.
 nlohmann::json WalkJson(const std::filesystem::path& folder, double spacing);
 
-/// The same with two columns more, `zmp_robot_x_m` and `zmp_robot_y_m` (RobotZmps).
+/// The same with the columns `zmp_robot_x_m` and `zmp_robot_y_m`, and where soles stand at
+/// different heights `tilt_x` and `tilt_y` (RobotZmps).
 nlohmann::json WalkJson(const RobotModel& robot, const std::filesystem::path& folder,
                         double spacing);
 

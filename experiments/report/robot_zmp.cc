@@ -7,6 +7,7 @@
 #include "experiments/report/trajectory_states.h"
 #include "wpg/motion/posture.h"
 #include "wpg/motion/robot_dynamics.h"
+#include "wpg/motion/standing_heights.h"
 #include "wpg/robot/gravity.h"
 
 namespace halfstep {
@@ -21,23 +22,34 @@ void Differentiate(const std::array<double, 3>& t, const std::array<WalkState, 3
   jet->second = 2.0 * (out - in) / (before + after);
 }
 
-std::optional<Eigen::Vector2d> ZmpOf(const RobotModel& robot, const WalkJet& jet) {
+std::optional<RobotZmp> ZmpOf(const RobotModel& robot, const WalkJet& jet, double height) {
   Posture posture = SolvePosture(robot, jet.value);
   if (!posture.reachable || !SolveJointSpeeds(robot, jet, &posture)) return std::nullopt;
-  return RobotDynamics(robot, jet, posture, kGravity).Zmp();
+  const RobotDynamics dynamics(robot, jet, posture, kGravity);
+  const std::optional<Eigen::Vector2d> zmp = dynamics.Zmp(height);
+  if (!zmp) return std::nullopt;
+  return RobotZmp{.zmp = *zmp, .tilt = dynamics.Tilt()};
+}
+
+// The sole that stands alone, if one does.
+std::optional<Side> OnlySole(const std::string& support) {
+  if (support == Name(Side::kLeft)) return Side::kLeft;
+  if (support == Name(Side::kRight)) return Side::kRight;
+  return std::nullopt;
 }
 
 }  // namespace
 
-std::vector<Eigen::Vector2d> RobotZmps(const RobotModel& robot, const CsvTable& trajectory) {
+std::vector<RobotZmp> RobotZmps(const RobotModel& robot, const CsvTable& trajectory) {
   const std::vector<double> t = trajectory.Numbers("t_s");
   const std::vector<WalkState> states = StatesOf(robot, trajectory);
   const std::vector<double> vx = trajectory.Numbers("com_vx_m_s"),
                             vy = trajectory.Numbers("com_vy_m_s"),
                             ax = trajectory.Numbers("com_ax_m_s2"),
                             ay = trajectory.Numbers("com_ay_m_s2");
+  const std::vector<std::string> supports = trajectory.Texts("support");
   const Eigen::Vector2d none = Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
-  std::vector<Eigen::Vector2d> zmps(t.size(), none);
+  std::vector<RobotZmp> zmps(t.size(), {.zmp = none, .tilt = none});
   if (!robot.masses.known()) return zmps;
   for (size_t i = 0; i < t.size(); ++i) {
     WalkJet jet{.value = states[i]};
@@ -46,7 +58,8 @@ std::vector<Eigen::Vector2d> RobotZmps(const RobotModel& robot, const CsvTable& 
     }
     jet.first.segment<2>(kComX) << vx[i], vy[i];
     jet.second.segment<2>(kComX) << ax[i], ay[i];
-    zmps[i] = ZmpOf(robot, jet).value_or(none);
+    const StandingHeights heights(states[i], OnlySole(supports[i]));
+    zmps[i] = ZmpOf(robot, jet, heights.middle()).value_or(zmps[i]);
   }
   return zmps;
 }

@@ -34,21 +34,25 @@ const solid = new THREE.MeshStandardMaterial({
   color: "#b7a58c", roughness: 0.85, transparent: true, opacity: 0.84,
 });
 const edges = new THREE.LineBasicMaterial({ color: "#6d5f4b", transparent: true, opacity: 0.7 });
+const bearing = new THREE.MeshStandardMaterial({ color: "#c9ced6", roughness: 0.95 });
+const risers = new THREE.LineBasicMaterial({ color: "#6b7480", transparent: true, opacity: 0.8 });
+
+function solidMesh(json, look, lineLook, order) {
+  const geometry = meshGeometry(json);
+  const mesh = new THREE.Mesh(geometry, look);
+  mesh.castShadow = mesh.receiveShadow = true;
+  mesh.renderOrder = order;
+  const lines = new THREE.LineSegments(new THREE.EdgesGeometry(geometry, 32), lineLook);
+  lines.renderOrder = order + 1;
+  mesh.add(lines);
+  return mesh;
+}
 
 /**
  * An obstacle of a scene's data. Drawn last, so that it hides what is seen through the feet; robots
  * show faintly through it.
  */
-export function obstacleMesh(json) {
-  const geometry = meshGeometry(json);
-  const mesh = new THREE.Mesh(geometry, solid);
-  mesh.castShadow = mesh.receiveShadow = true;
-  mesh.renderOrder = 20;
-  const lines = new THREE.LineSegments(new THREE.EdgesGeometry(geometry, 32), edges);
-  lines.renderOrder = 21;
-  mesh.add(lines);
-  return mesh;
-}
+export const obstacleMesh = (json) => solidMesh(json, solid, edges, 20);
 
 /** A no-step area, a polygon of [x, y] in W. */
 export function areaMark(polygon) {
@@ -67,6 +71,8 @@ function sceneGroup(json, moving) {
     group.add(mesh);
   }
   for (const polygon of json.no_step) group.add(areaMark(polygon));
+  // What stands out of the floor; marks lie on it.
+  for (const one of json.ground?.solids ?? []) group.add(solidMesh(one, bearing, risers, -4));
   return group;
 }
 
@@ -115,6 +121,7 @@ export class Stage {
   useTheme() {
     if (this.floor) this.scene.remove(this.floor);
     this.floor = floor();
+    this.floor.visible = this.hasFloor ?? true;
     this.scene.add(this.floor);
     this.scene.background = new THREE.Color(palette.theme.sky);
     this.scene.fog = new THREE.Fog(palette.theme.sky, 9, 22);
@@ -124,6 +131,8 @@ export class Stage {
     this.place.clear();
     this.moving = [];
     this.place.add(sceneGroup(json, this.moving));
+    this.hasFloor = json.ground?.floor ?? true;
+    this.floor.visible = this.hasFloor;
     this.showTime(0);
   }
 
@@ -140,32 +149,33 @@ export class Stage {
     }
   }
 
-  /** A direction of `directions`, at `height` above a point on the floor, `distance` [m] away. */
-  look(name, [x, y], distance, height = 0.68) {
+  /** A direction of `directions`, at `height` above a point of the ground, `distance` [m] away. */
+  look(name, [x, y, ground = 0], distance, height = 0.68) {
     const direction = new THREE.Vector3(...directions[name]);
-    this.controls.target.set(x, y, name === "top" ? 0 : height);
+    this.ground = ground;
+    this.controls.target.set(x, y, name === "top" ? ground : ground + height);
     this.camera.position.copy(this.controls.target).addScaledVector(direction, distance);
     this.controls.update();
   }
 
-  /** Moves what the camera looks at to another point of the floor. */
-  followTo(x, y) {
-    const dx = x - this.controls.target.x;
-    const dy = y - this.controls.target.y;
-    this.controls.target.x += dx;
-    this.controls.target.y += dy;
-    this.camera.position.x += dx;
-    this.camera.position.y += dy;
+  /** Moves what the camera looks at to another point; its height by how much the ground rose. */
+  followTo(x, y, ground = 0) {
+    const { target } = this.controls;
+    const move = new THREE.Vector3(x - target.x, y - target.y, ground - (this.ground ?? 0));
+    this.ground = ground;
+    target.add(move);
+    this.camera.position.add(move);
   }
 
   light({ x, y }) {
-    this.sun.target.position.set(x, y, 0.4);
-    this.sun.position.set(x + 2.6, y - 2.0, 5);
+    const z = this.ground ?? 0;
+    this.sun.target.position.set(x, y, z + 0.4);
+    this.sun.position.set(x + 2.6, y - 2.0, z + 5);
   }
 
   /**
-   * Draws views side by side: each has its layers, and may be moved by [x, y] along the floor from
-   * where the camera is.
+   * Draws views side by side: each has its layers, and may be moved by [x, y, z] from where the
+   * camera is.
    */
   draw(views) {
     const width = this.canvas.clientWidth;
@@ -177,8 +187,8 @@ export class Stage {
     this.camera.aspect = part / height;
     this.camera.updateProjectionMatrix();
     const home = this.camera.position.clone();
-    views.forEach(({ layers, shift: [x, y] }, i) => {
-      this.camera.position.set(home.x + x, home.y + y, home.z);
+    views.forEach(({ layers, shift: [x, y, z = 0] }, i) => {
+      this.camera.position.set(home.x + x, home.y + y, home.z + z);
       this.camera.updateMatrixWorld();
       this.light({ x: this.controls.target.x + x, y: this.controls.target.y + y });
       this.camera.layers.set(0);

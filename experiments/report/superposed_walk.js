@@ -2,31 +2,36 @@
 // Source: smoothing/README.md, "The homotopy".
 import { RestToRest, rampedStep, smoothstep } from "./rest_to_rest.js";
 
-// Quantities of a walk: com x y, zmp x y, waist yaw, and of each foot x y z yaw.
+// Quantities of a walk: com x y, zmp x y, waist yaw, of each foot x y z yaw, and the waist's z above
+// where it stands on z = 0.
 const footAt = { left: 5, right: 9 };
+export const waistZ = 13;
 
 const moved = ([x, y, yaw], [px, py]) => [
   x + Math.cos(yaw) * px - Math.sin(yaw) * py, y + Math.sin(yaw) * px + Math.cos(yaw) * py,
 ];
 
-// The state at rest in W, on the floor or at the via point.
+// The state at rest in W, on the floor or at the via point. Places are [x, y, yaw], with z where there
+// are levels.
 function restState(half, onFloor, height) {
-  const { support, X_WS: place, X_SF: foot } = half;
+  const { support, X_WS: place, X_SF: foot, crouch_m: crouch = 0 } = half;
+  const [level, landing] = [place[3] ?? 0, foot[3] ?? 0];
   const swing = support === "left" ? "right" : "left";
   const sign = swing === "left" ? 1 : -1;
   const point = onFloor ? [0.5 * foot[0], 0.5 * foot[1]] : [0, sign * half.support_point_m];
   const sole = onFloor ? foot : [half.via_along_m, sign * half.via_lateral_m, 0];
-  const state = new Float64Array(13);
+  const state = new Float64Array(14);
   state.set([...moved(place, point), ...moved(place, point), place[2] + (onFloor ? 0.5 * foot[2] : 0)]);
-  state.set([place[0], place[1], 0, place[2]], footAt[support]);
-  state.set([...moved(place, sole), onFloor ? 0 : height, place[2] + sole[2]], footAt[swing]);
+  state.set([place[0], place[1], level, place[2]], footAt[support]);
+  state.set([...moved(place, sole), level + (onFloor ? landing : height), place[2] + sole[2]], footAt[swing]);
+  state[waistZ] = level + (onFloor ? Math.min(0, landing) : 0) - crouch;
   return state;
 }
 
-// X_AC = X_AB · X_BC of planar poses [x, y, yaw], and X_BA.
-const composed = (a, b) => [...moved(a, b), a[2] + b[2]];
-const inverse = ([x, y, yaw]) => [
-  -Math.cos(yaw) * x - Math.sin(yaw) * y, Math.sin(yaw) * x - Math.cos(yaw) * y, -yaw,
+// X_AC = X_AB · X_BC of places [x, y, yaw, z], and X_BA.
+const composed = (a, b) => [...moved(a, b), a[2] + b[2], (a[3] ?? 0) + (b[3] ?? 0)];
+const inverse = ([x, y, yaw, z = 0]) => [
+  -Math.cos(yaw) * x - Math.sin(yaw) * y, Math.sin(yaw) * x - Math.cos(yaw) * y, -yaw, -z,
 ];
 
 // The half-steps on the footsteps that the parameters move.
@@ -68,6 +73,7 @@ class Piece {
     this.foot = this.up ? [this.t2 + half.foot_delay, 1] : [0, this.t1 - half.foot_delay];
     this.lift = this.up ? [this.t2, this.t2 + half.lift_share * (1 - this.t2)]
       : [this.t1 - half.lift_share * this.t1, this.t1];
+    this.rise = this.up ? [half.rise_begin, half.rise_end] : [1 - half.rise_end, 1 - half.rise_begin];
     const height = half.via_height_m * heightScale;
     this.from = restState(half, this.up, height);
     const to = restState(half, !this.up, height);
@@ -81,8 +87,9 @@ class Piece {
     const zmp = this.shift.zmp(sigma);
     const foot = rampedStep(sigma, ...this.foot, this.half.foot_ramp);
     const height = smoothstep(sigma, ...this.lift);
+    const rise = delta[waistZ] === 0 ? 0 : smoothstep(sigma, ...this.rise);
     const profiles = [com, com, zmp, zmp, smoothstep(sigma),
-                      foot, foot, height, foot, foot, foot, height, foot];
+                      foot, foot, height, foot, foot, foot, height, foot, rise];
     profiles.forEach((profile, q) => { state[q] += profile * delta[q]; });
   }
 }
@@ -114,7 +121,7 @@ export class SuperposedWalk {
     this.duration = last.start + last.duration;
   }
 
-  /** All 13 quantities at t [s]. */
+  /** All 14 quantities at t [s]. */
   stateAt(t) {
     const state = Float64Array.from(this.pieces[0].from);
     for (const piece of this.pieces) {

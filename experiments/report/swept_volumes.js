@@ -78,11 +78,15 @@ export function meshOf(shape, look, order) {
 }
 
 /** Puts it where the half-step is. */
-export function place(mesh, { X_WS: [x, y, yaw], mirrored }) {
-  mesh.position.set(x, y, 0);
+export function place(mesh, { X_WS: [x, y, yaw], z_m: z = 0, mirrored }) {
+  mesh.position.set(x, y, z);
   mesh.rotation.z = yaw;
   mesh.scale.y = mirrored ? -1 : 1;
 }
+
+// All volumes of a half-step: on levels the feet have their own.
+const volumesOf = ({ volume, feet = [] }) => [volume, ...feet];
+const mostVolumes = 3;
 
 class SweptVolumes {
   /** Of a case's data; shapes are made when it is first shown. */
@@ -102,28 +106,31 @@ class SweptVolumes {
   make() {
     this.shapes = this.json.volumes.map((volume) => surfaceOf(volume, this.json.cell_m));
     for (const half of this.json.half_steps) {
-      const shape = half && this.shapes[half.volume];
-      if (!shape) continue;
-      const mesh = meshOf(shape, this.faint, 30);
-      place(mesh, half);
-      this.group.add(mesh);
+      for (const shape of half ? volumesOf(half).map((i) => this.shapes[i]) : []) {
+        if (!shape) continue;
+        const mesh = meshOf(shape, this.faint, 30);
+        place(mesh, half);
+        this.group.add(mesh);
+      }
     }
-    this.present = [1, 2].map((layer) => {
+    this.present = [1, 2].map((layer) => Array.from({ length: mostVolumes }, () => {
       const mesh = onLayer(meshOf(new THREE.BufferGeometry(), this.strong, 31), layer);
       this.group.add(mesh);
       return mesh;
-    });
+    }));
   }
 
   /** Draws those of A's and of B's present half-step, from 0, more strongly; −1: none. */
   showHalfSteps(indices) {
-    this.present?.forEach((mesh, i) => {
+    this.present?.forEach((meshes, i) => {
       const half = this.json.half_steps[indices[i] ?? -1];
-      const shape = half && this.shapes[half.volume];
-      mesh.visible = Boolean(shape);
-      if (!shape) return;
-      mesh.geometry = shape;
-      place(mesh, half);
+      meshes.forEach((mesh, k) => {
+        const shape = half && this.shapes[volumesOf(half)[k]];
+        mesh.visible = Boolean(shape);
+        if (!shape) return;
+        mesh.geometry = shape;
+        place(mesh, half);
+      });
     });
   }
 

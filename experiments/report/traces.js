@@ -4,13 +4,13 @@ import * as palette from "./palette.js";
 import { flatMaterial, ribbonGeometry, mark } from "./floor_marks.js";
 import { RobotFigure, ghostMaterial } from "./robot.js";
 
-/** Paths of CoM and ZMP on the floor. */
+/** Paths of CoM and ZMP on the ground. */
 export function paths(walk) {
   const group = new THREE.Group();
   for (const [name, colour, order] of [["com", palette.com, 5], ["zmp", palette.zmp, 6]]) {
     const x = walk.column(`${name}_x_m`);
     const y = walk.column(`${name}_y_m`);
-    const points = Array.from(x, (value, i) => [value, y[i]]);
+    const points = Array.from(x, (value, i) => [value, y[i], walk.groundAt({ row: i, part: 0 })]);
     const distinct = points.some(([px, py]) => Math.hypot(px - points[0][0], py - points[0][1]) > 1e-4);
     if (distinct) group.add(mark(ribbonGeometry(points, 0.006, 0.005), colour, 0.75, order));
   }
@@ -27,7 +27,8 @@ export function soleTraces(walk, [, width]) {
     const triangles = [];
     let joined = false;
     for (let i = 0; i < x.length; ++i) {
-      const inAir = z[i] > 1e-4;
+      const alone = walk.supportAt({ row: i });
+      const inAir = alone !== "both" && alone !== side;
       if (inAir) {
         const dx = (-Math.sin(yaw[i]) * width) / 2;
         const dy = (Math.cos(yaw[i]) * width) / 2;

@@ -88,6 +88,13 @@ export class Walk {
     return { l: "left", r: "right" }[this.support[row]] ?? "both";
   }
 
+  /** How high the pendulum stands [m]: on z = 0, or where the waist rises with its foot. */
+  groundAt(at) {
+    const first = { row: 0, part: 0 };
+    const lower = Math.min(this.sole("left", first).z, this.sole("right", first).z);
+    return lower + this.value("com_z_m", at) - this.value("com_z_m", first);
+  }
+
   sole(side, at) {
     const of = (what) => this.value(`${side}_foot_${what}`, at);
     return { x: of("x_m"), y: of("y_m"), z: of("z_m"), yaw: of("yaw_rad") };

@@ -43,9 +43,12 @@ export class ZmpMap {
       points(walk, "zmp_robot", 0, walk.times.length - 1).length > 1;
     this.lines = [["zmp", palette.zmp, "planned ZMP, of a point mass"]];
     if (known) this.lines.push(["zmp_robot", palette.left, "ZMP of the whole robot"]);
+    this.levels = walk.encoded.tilt_x !== undefined;
     const head = element("p");
     for (const [, colour, label] of this.lines) head.append(lineKey(colour, label), " ");
     head.append(` Shaded: the polygon at the time of the walk; bold: ${trail} s before it. ` +
+      (this.levels ? "Of soles at two heights it is the hull of their shadows, which they cast along the ground's force " +
+        "in the plane halfway between them; there the robot's ZMP is drawn. " : "") +
       (known ? "The robot's ZMP is drawn from differences of rows; its proved margin is in certificate.csv. " : ""));
     this.note = element("span", { className: "value" });
     head.append(this.note);
@@ -86,13 +89,23 @@ export class ZmpMap {
     label.textContent = "0.1 m";
   }
 
+  // The sole's shadow along the ground's force, in the plane halfway between those that stand.
+  shadow(side, sides, at) {
+    const sole = this.walk.sole(side, at);
+    if (!this.levels) return sole;
+    const heights = sides.map((one) => this.walk.sole(one, at).z);
+    const above = heights.reduce((sum, z) => sum + z, 0) / heights.length - sole.z;
+    const [dx, dy] = ["tilt_x", "tilt_y"].map((name) => above * (this.walk.value(name, at) || 0));
+    return { ...sole, x: sole.x + dx, y: sole.y + dy };
+  }
+
   showTime(t) {
     if (this.parent.hidden || !this.walk) return;
     const { walk } = this;
     const at = walk.locate(t);
     const support = walk.supportAt(at);
     const sides = support === "both" ? ["left", "right"] : [support];
-    const corners = sides.flatMap((side) => soleCorners(walk.sole(side, at), this.sole));
+    const corners = sides.flatMap((side) => soleCorners(this.shadow(side, sides, at), this.sole));
     this.polygon.setAttribute("points", text(convexHull(corners)));
     const from = walk.locate(Math.max(0, t - trail)).row;
     const places = this.lines.map(([name], i) => {

@@ -245,7 +245,7 @@ void ExperimentRun::Write(RunFolder* folder) const {
   if (planned_) {
     folder->Write("plan.json", PlanJson(*planned_));
     if (!planned_->plan.footsteps.empty()) {
-      folder->Write("swept_volumes.json", PlanVolumesJson(*planned_));
+      folder->Write("swept_volumes.json", PlanVolumesJson(*planned_, experiment_->sequence));
     }
   }
   WriteCsv("footsteps", FootstepsCsv(experiment_->sequence), folder);

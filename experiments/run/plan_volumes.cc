@@ -29,33 +29,48 @@ json VolumesJson(const std::vector<const BoxTree*>& volumes, int merged, size_t*
 
 }  // namespace
 
-std::string PlanVolumesJson(const PlannedWalk& walk) {
+std::string PlanVolumesJson(const PlannedWalk& walk, const HalfStepSequence& sequence) {
   const PlanResult& plan = walk.plan;
-  HALFSTEP_CHECK(walk.half_steps.cached.volumes && plan.elements.size() == plan.footsteps.size(),
+  HALFSTEP_CHECK(walk.half_steps.cached.volumes && plan.elements.size() == plan.footsteps.size() &&
+                     sequence.half_steps.size() == 2 * plan.footsteps.size(),
                  "no volumes, or no plan");
   const SweptVolumes& all = *walk.half_steps.cached.volumes;
   std::vector<const BoxTree*> volumes;
   std::map<const BoxTree*, size_t> known;
   json half_steps = json::array();
-  const auto add = [&](const std::optional<BoxTree>& volume, Side support, const Pose2& X_WS) {
-    if (!volume) return half_steps.push_back(nullptr);
+  const auto number_of = [&](const std::optional<BoxTree>& volume) {
     const auto [at, is_new] = known.try_emplace(&*volume, volumes.size());
     if (is_new) volumes.push_back(&*volume);
-    half_steps.push_back({{"volume", at->second},
-                          {"mirrored", support == Side::kRight},
-                          {"X_WS", {X_WS.x, X_WS.y, X_WS.yaw}}});
+    return at->second;
   };
-  Pose2 stands = Index(Opposite(plan.footsteps.front().side)) == 0 ? walk.config.start_left
-                                                                   : walk.config.start_right;
-  for (size_t k = 0; k < plan.footsteps.size(); ++k) {
-    const Side support = Opposite(plan.footsteps[k].side);
-    if (k == 0) {
-      half_steps.push_back(nullptr);
-    } else {
-      add(Nth(all.up, plan.elements[k - 1]), support, stands);
+  const auto add = [&](const std::vector<const SweptVolumes::Volumes*>& parts, int element,
+                       const PlacedHalfStep& placed) {
+    const Foothold& X_WS = placed.X_WS;
+    json numbers = json::array();
+    for (const SweptVolumes::Volumes* part : parts) {
+      if (!Nth(*part, element)) return half_steps.push_back(nullptr);
+      numbers.push_back(number_of(Nth(*part, element)));
     }
-    add(Nth(all.down, plan.elements[k]), support, stands);
-    stands = plan.footsteps[k].X_WF.LevelPose();
+    json half_step = {{"volume", numbers.front()},
+                      {"mirrored", placed.half_step.support == Side::kRight},
+                      {"X_WS", {X_WS.x, X_WS.y, X_WS.yaw}}};
+    if (all.set.on_levels) {
+      half_step["z_m"] = X_WS.height;
+      half_step["feet"] = {numbers[1], numbers[2]};
+    }
+    half_steps.push_back(std::move(half_step));
+  };
+  using Parts = std::vector<const SweptVolumes::Volumes*>;
+  const bool levels = all.set.on_levels;
+  const Parts up = levels ? Parts{&all.up, &all.up_swing, &all.up_stand} : Parts{&all.up};
+  const Parts down = levels ? Parts{&all.down, &all.down_swing, &all.down_stand} : Parts{&all.down};
+  for (size_t k = 0; k < plan.footsteps.size(); ++k) {
+    if (k == 0) {
+      half_steps.push_back(nullptr);  // from the start, proved by itself
+    } else {
+      add(up, plan.elements[k - 1], sequence.half_steps[2 * k]);
+    }
+    add(down, plan.elements[k], sequence.half_steps[2 * k + 1]);
   }
   const double baked = volumes.empty() ? 0.0 : volumes.front()->cell;
   int merged = 1;

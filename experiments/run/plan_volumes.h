@@ -12,8 +12,10 @@ namespace halfstep {
 /// `volumes` are seen from a left support: `size` cells along x, y, z from `lower` [cells], and
 /// `runs`, the lengths of runs of free and occupied cells in turn, z fastest, x slowest.
 /// `half_steps` has an entry a half-step of the walk: index of its volume, whether it is the mirror
-/// image (on a right support), X_WS [m, rad]; null for the first, which is in no set. Precondition:
-/// solved, with volumes.
-std::string PlanVolumesJson(const PlannedWalk& walk);
+/// image (on a right support), X_WS [m, rad]; null for the first, which is in no set. On levels
+/// `volume` is of all bodies but the feet, `feet` are those of the foot that swings and of the one
+/// that stands, and `z_m` is the support sole's height. Precondition: solved, with volumes;
+/// `sequence` is the plan's.
+std::string PlanVolumesJson(const PlannedWalk& walk, const HalfStepSequence& sequence);
 
 }  // namespace halfstep

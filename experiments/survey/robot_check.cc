@@ -57,8 +57,11 @@ class RobotChecker {
       strides = {0.7 * longest, longest};
     }
     for (const double stride : strides) Walk(stride);
-    Told(0.9);
+    Told(0.8);
     if (check_.reach.stride > 0.0) StepOver();
+    Told(0.9);
+    check_.stairs = HighestStairs(UsualRun(robot_), robot_, config_,
+                                  [&] { return !hooks_.stop.stop_requested(); });
     Told(1.0);
     return check_;
   }

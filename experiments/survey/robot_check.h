@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "experiments/run/experiment_run.h"
+#include "experiments/survey/climbed_stairs.h"
 #include "wpg/motion/half_step.h"
 #include "wpg/robot/not_covered.h"
 #include "wpg/robot/robot_measures.h"
@@ -46,12 +47,14 @@ struct RobotCheck {
   std::optional<StraightWalk> walk;      ///< the fastest of the certified ones that were tried
   std::vector<std::string> why_no_walk;  ///< what the slowest of them misses; empty: a walk
   std::optional<SteppedBar> bar;  ///< the highest; none: of the heights tried none is certified
+  std::optional<ClimbedStairs> stairs;  ///< the highest (HighestStairs)
   std::vector<NotCovered> not_covered;  ///< what no certificate about the walk speaks of
 };
 
 /// Looks at what a robot can do: of all places of its step set by samples, of those farthest out by
-/// proof, six steps of two strides by `dichotomy` and `halfstep/sqp`, and a bar that is raised as
-/// long as the steps over it are certified, the foot moving on as by default or later (0.19).
+/// proof, six steps of two strides by `dichotomy` and `halfstep/sqp`, a bar that is raised as long
+/// as the steps over it are certified, the foot moving on as by default or later (0.19), and
+/// stairs.
 /// `name`: the robot as a config names it, its file's path or a shipped name. Progress is told from
 /// 0 to 1.
 RobotCheck CheckRobot(const std::string& name, const RobotModel& robot, const RunHooks& hooks,

@@ -76,6 +76,15 @@ std::string WhatItDoes(const RobotCheck& check) {
     text +=
         "  it passes   no bar: of those that were tried over its longest step none is certified\n";
   }
+  if (check.stairs) {
+    const Flight& flight = check.stairs->flight;
+    text += Formatted(
+        "  it climbs   stairs of %.3g cm at treads of %.3g cm, up and down, foot over foot "
+        "(certified)\n",
+        100 * flight.rise, 100 * flight.run);
+  } else {
+    text += "  it climbs   no stairs: of the rises that were tried none is certified\n";
+  }
   return text + Formatted("  it lifts    a foot %.3g m, as far as the joints' limits let it\n",
                           check.measures.lift);
 }
@@ -139,6 +148,7 @@ std::string RobotCheckJson(const RobotModel& robot, const RobotCheck& check) {
       {"walk", nullptr},
       {"why_no_walk", check.why_no_walk},
       {"bar", nullptr},
+      {"stairs", nullptr},
       {"lift_m", check.measures.lift}};
   if (check.walk) {
     json["walk"] = {{"speed_m_s", check.walk->speed()},
@@ -150,6 +160,12 @@ std::string RobotCheckJson(const RobotModel& robot, const RobotCheck& check) {
     json["bar"] = {{"height_m", check.bar->height},
                    {"thickness_m", check.bar->thickness},
                    {"stride_m", check.bar->stride}};
+  }
+  if (check.stairs) {
+    const HalfStep& form = check.stairs->half_step;
+    json["stairs"] = {{"rise_m", check.stairs->flight.rise}, {"run_m", check.stairs->flight.run},
+                      {"duration_s", form.duration},         {"via_height_m", form.via_height},
+                      {"foot_delay", form.shape.foot_delay}, {"crouch_m", form.shape.crouch}};
   }
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -4,10 +4,33 @@
 #include "experiments/survey/stance_search.h"
 #include "smoothing/walk/superposed_walk.h"
 #include "wpg/files/text.h"
+#include "wpg/nth.h"
 #include "wpg/robot/robot_measures.h"
 
 namespace halfstep {
 namespace {
+
+std::string FootstepLine(Side foot, const Pose2& at) {
+  return Formatted("  - {foot: %s, x_m: %.4f, y_m: %.4f}\n", std::string(Name(foot)).c_str(), at.x,
+                   at.y);
+}
+
+// Up a flight, as items of a list, and the form of the half-steps.
+std::string LinesOf(const ClimbedStairs& stairs, const RobotModel& robot) {
+  const HalfStep& form = stairs.half_step;
+  const HalfStepSequence sequence = WalkAlong(stairs.flight, true, robot, form);
+  std::string text = "footsteps:  # the scene tells their heights\n";
+  for (int i = 1; i < sequence.size(); i += 2) {
+    const PlacedHalfStep& down = Nth(sequence.half_steps, i);
+    const Foothold at = down.X_WS * down.half_step.X_SF;
+    text += FootstepLine(down.half_step.swing(), at.Planar());
+  }
+  return text + Formatted(
+                    "half_step: {duration_s: %.4g, via_height_m: %.4g, foot_delay: %.4g, crouch_m: "
+                    "%.4g}  # so long lasts each, so high goes the foot, so late it moves on, so "
+                    "low is the waist\n",
+                    form.duration, form.via_height, form.shape.foot_delay, form.shape.crouch);
+}
 
 // Six steps straight ahead, as items of a list.
 std::string FootstepLines(const RobotModel& robot, const HalfStep& half_step) {
@@ -23,8 +46,7 @@ std::string FootstepLines(const RobotModel& robot, const HalfStep& half_step) {
           "  # Steps of %.3f m in place of %.3f m: with longer ones a leg comes to its limits.\n",
           at.x, usual);
     }
-    text += Formatted("  - {foot: %s, x_m: %.4f, y_m: %.4f}\n", std::string(Name(foot)).c_str(),
-                      at.x, at.y);
+    text += FootstepLine(foot, at);
   }
   return text;
 }
@@ -43,7 +65,9 @@ std::string StarterConfigText(const RobotModel& robot, const StarterConfig& conf
       config.robot_file + "  # `halfstep list robots`; `halfstep robot` makes one of a URDF\n" +
       "scene: " + config.scene + (config.scene == "none" ? "  # an empty floor; " : "  # ") +
       "`halfstep list scenes`\n";
-  if (config.goal) {
+  if (config.stairs) {
+    text += LinesOf(*config.stairs, robot);
+  } else if (config.goal) {
     text += Formatted(
         "goal: {x_m: %g, y_m: %g, radius_m: 0.1}  # a planner finds the footsteps; in place of it "
         "`footsteps:`\n",
@@ -58,15 +82,27 @@ std::string StarterConfigText(const RobotModel& robot, const StarterConfig& conf
             ".\n# So a search looks for another walk.\n"
             "smoothing: {methods: [halfstep/sqp]}\n";
   }
-  text += Formatted(
-      "# half_step: {duration_s: %.3g, via_height_m: %.3g}  # so long lasts each, so high goes the "
-      "foot\n"
-      "# smoothing:  # more than one after the other: `halfstep list methods`\n"
-      "#   methods: [dichotomy, halfstep/sqp]\n"
-      "#   optimizer: {footsteps: true}  # footsteps move a little, too\n"
-      "#   margins: {clearance_m: 0.005}\n",
-      half_step.duration, half_step.via_height);
-  return text;
+  if (!config.stairs) {
+    text += Formatted(
+        "# half_step: {duration_s: %.3g, via_height_m: %.3g}  # so long lasts each, so high goes "
+        "the foot\n",
+        half_step.duration, half_step.via_height);
+  }
+  return text +
+         "# smoothing:  # more than one after the other: `halfstep list methods`\n"
+         "#   methods: [dichotomy, halfstep/sqp]\n"
+         "#   optimizer: {footsteps: true}  # footsteps move a little, too\n"
+         "#   margins: {clearance_m: 0.005}\n";
+}
+
+std::string StairsSceneText(const Flight& flight) {
+  return Formatted(
+      "# %d treads of %.4g cm, each %.4g cm high: planner/README.md, \"Ground\".\n"
+      "surfaces:\n"
+      "  - name: flight\n"
+      "    stairs: {at: {x_m: %.6g}, rise_m: %.6g, run_m: %.6g, width_m: %.3g, count: %d}\n",
+      flight.treads, 100 * flight.run, 100 * flight.rise, 0.5 * flight.run, flight.rise, flight.run,
+      kFlightWidth, flight.treads);
 }
 
 }  // namespace halfstep

@@ -191,7 +191,7 @@ void PrintReplayed(const std::string& run, const std::string& method) {
   const RobotModel robot = LoadPlace(LoadConfig(run + "/config.yaml", {})).robot;
   const CsvTable walk = ReadCsv(run + "/" + method + "/trajectory.csv"),
                  replay = ReadCsv(run + "/" + method + "/replay.csv");
-  const std::vector<Eigen::Vector2d> zmps = RobotZmps(robot, walk);
+  const std::vector<RobotZmp> zmps = RobotZmps(robot, walk);
   const auto column = [](const CsvTable& table, const std::string& name) {
     return table.Numbers(name);
   };

@@ -50,6 +50,31 @@ TEST(InitCommand, NamesASceneAndAGoal) {
   EXPECT_THAT(text, HasSubstr("\ngoal: {x_m: 1, y_m: -0.2, "));
 }
 
+TEST(InitCommand, LeadsUpStairs) {
+  const TemporaryFolder place;
+  const Outcome outcome =
+      Halfstep(place.path(), {"init", "up", "--robot", "wren", "--stairs", "0.02"});
+  ASSERT_EQ(outcome.status, kSuccess) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("written: up_scene.yaml\nwritten: up.yaml\n"));
+  EXPECT_THAT(ReadText(place / "up_scene.yaml"), HasSubstr("rise_m: 0.02,"));
+  const Outcome run = Halfstep(place.path(), {"run", "up.yaml", "--out", "run"});
+  EXPECT_EQ(run.status, kSuccess) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("raw                    converged        certified"));
+  EXPECT_THAT(ReadText(place / "run/footsteps.csv"), HasSubstr("0.06"));  // the third tread
+  // Nothing is lost, and nothing is written of what is no flight.
+  const Outcome there = Halfstep(place.path(), {"init", "up.yaml", "--stairs"});
+  EXPECT_EQ(there.status, kBadInput);
+  for (const std::string steep : {"-0.1", "1.5", "nan"}) {
+    const Outcome refused = Halfstep(place.path(), {"init", "no", "--stairs=" + steep});
+    EXPECT_EQ(refused.status, kBadInput);
+    EXPECT_THAT(refused.err, HasSubstr("RISE: " + steep)) << refused.err;
+  }
+  const Outcome half = Halfstep(place.path(), {"init", "no", "--stairs", "0.1", "0.3", "2.5"});
+  EXPECT_THAT(half.err, HasSubstr("COUNT: 2.5 (valid: whole, from 1 to 50)"));
+  EXPECT_FALSE(std::filesystem::exists(place / "no.yaml"));
+  EXPECT_FALSE(std::filesystem::exists(place / "no_scene.yaml"));
+}
+
 TEST(InitCommand, RefusesWhatItWouldLose) {
   const TemporaryFolder place;
   WriteText(place / "walk.yaml", "mine");

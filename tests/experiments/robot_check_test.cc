@@ -40,15 +40,18 @@ TEST(RobotCheck, SaysWhatARobotCanDo) {
   RobotCheck check = Fabricated();
   check.walk = StraightWalk{0.3, 5.0, "dichotomy"};
   check.bar = SteppedBar{.height = 0.05, .thickness = 0.02, .stride = 0.3};
+  check.stairs = {.flight = {.rise = 0.04, .run = 0.15}, .half_step = check.half_step};
   check.not_covered = NotCoveredOf(robot);
   const std::string screen = RobotCheckScreen(robot, check);
   EXPECT_THAT(screen, HasSubstr("200 of 600 places"));
   EXPECT_THAT(screen, HasSubstr("0.30 m/s: six steps of 0.3 m in 5.00 s, dichotomy (certified)"));
   EXPECT_THAT(screen, HasSubstr("a bar 5 cm high and 2 cm thick"));
+  EXPECT_THAT(screen, HasSubstr("climbs   stairs of 4 cm at treads of 15 cm, up and down"));
   EXPECT_LE(std::ranges::count(screen, '\n'), 40);  // one screen
   const json read = json::parse(RobotCheckJson(robot, check));
   EXPECT_EQ(read["walk"]["speed_m_s"], 0.3);
   EXPECT_EQ(read["reach"]["farthest_m"], 0.2);
+  EXPECT_EQ(read["stairs"]["rise_m"], 0.04);
   EXPECT_EQ(read["not_covered"].size(), check.not_covered.size());
 }
 
@@ -76,6 +79,9 @@ TEST(RobotCheck, LooksAtTheRobotThatIsGiven) {
   // Twelve half-steps of 1.2 s, more than halved: methods have run.
   EXPECT_LT(check.walk->duration, 7.2);
   EXPECT_LE(check.walk->stride, check.reach.stride);
+  ASSERT_TRUE(check.stairs.has_value());
+  EXPECT_GT(check.stairs->flight.rise, 0.02);
+  EXPECT_LT(check.stairs->flight.rise, check.half_step.via_height);
   // Its foot rises that high and no higher.
   if (check.bar) {
     EXPECT_LT(check.bar->height, check.half_step.via_height);

@@ -23,8 +23,21 @@ async function sameClosedForm(browser, place, folder, method) {
   assert.ok(most < 1e-6, `the closed form is that of the run: ${most}`);
 }
 
+// Three stairs by a robot that crouches: levels are drawn, and the closed form has them.
+async function testLevels(browser, halfstep, source, place) {
+  execFileSync(halfstep, ["run", join(source, "experiments/configs/stairs_10cm.yaml"), "--out", "stairs", "--quiet",
+    "--set", "smoothing.methods=[dichotomy]", "--set", "half_step.crouch_m=0.01"], { cwd: place });
+  await sameClosedForm(browser, place, "stairs", "dichotomy");
+  const told = await browser.run(`return {
+    solids: JSON.parse(document.getElementById("data").textContent).scenes[0].ground.solids.length,
+    map: document.getElementById("zmps").textContent }`);
+  assert.equal(told.solids, 3);
+  assert.match(told.map, /hull of their shadows/);
+}
+
 /** The sliders of a run in `place`/run: A is its dichotomy. `halfstep` is the program. */
-export async function testByHand(browser, halfstep, place) {
+export async function testByHand(browser, halfstep, source, place) {
+  await testLevels(browser, halfstep, source, place);
   execFileSync(halfstep, ["smooth", "run", "--method", "halfstep/sqp", "--out", "forms", "--quiet",
     ...["durations", "via_laterals", "foot_ramps", "foot_delays", "lift_shares", "via_alongs", "zmp_shifts",
      "zmp_bump_ramps", "footsteps"].flatMap(

@@ -175,7 +175,7 @@ async function testAccess(browser) {
   return undefined;
 }
 
-const testSliders = (browser) => testByHand(browser, halfstep, place);
+const testSliders = (browser) => testByHand(browser, halfstep, source, place);
 const testVolumesOfPlan = (browser) => testVolumes(browser, halfstep, place, cache);
 const testVideoOfRun = (browser) => testVideo(browser, halfstep, place);
 
