@@ -238,6 +238,7 @@ ExperimentConfig Changed(ExperimentConfig config, const std::vector<PlanChange>&
     if (!change.step) {
       set(change.duration, &config.half_step.duration);
       set(change.via_height, &config.half_step.via_height);
+      set(change.crouch, &config.half_step.crouch);
       continue;
     }
     FootstepConfig& footstep = Nth(config.footsteps, *change.step);

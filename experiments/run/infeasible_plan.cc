@@ -14,6 +14,11 @@
 namespace halfstep {
 namespace {
 
+// "2 cm of crouch (`half_step.crouch_m: 0.02`)"
+std::string CrouchText(double crouch) {
+  return Formatted("%.3g cm of crouch (`half_step.crouch_m: %.3g`)", 100.0 * crouch, crouch);
+}
+
 // "a via point 0.26 m high in place of 0.25 m (`footsteps.3.via_height_m: 0.26`)"
 std::string ChangeText(const ChangeablePlan& plan, const PlanChange& change) {
   const std::string key = change.step ? Formatted("footsteps.%d.", *change.step) : "half_step.";
@@ -27,6 +32,7 @@ std::string ChangeText(const ChangeablePlan& plan, const PlanChange& change) {
     const HalfStep& up = Nth(plan.sequence.half_steps, 2 * *change.step).half_step;
     planned = {.duration = up.duration, .via_height = up.via_height};
   }
+  if (change.crouch) return CrouchText(*change.crouch);
   if (!change.duration) {
     return Formatted("a via point %.3g m high in place of %.3g m (`%svia_height_m: %.3g`)",
                      *change.via_height, *planned.via_height, key.c_str(), *change.via_height);
@@ -49,7 +55,9 @@ std::vector<std::string> RemediesText(const Experiment& experiment, const WalkPr
   const ExperimentConfig& config = experiment.config;
   const ChangeablePlan plan{
       .sequence = problem.sequence(),
-      .usual = {.duration = config.half_step.duration, .via_height = config.half_step.via_height},
+      .usual = {.duration = config.half_step.duration,
+                .via_height = config.half_step.via_height,
+                .crouch = config.half_step.crouch},
       .With = [&](const std::vector<PlanChange>& changes) -> std::optional<HalfStepSequence> {
         try {
           return SequenceOf(Changed(config, changes), experiment.robot, *experiment.scene.ground);
@@ -61,6 +69,10 @@ std::vector<std::string> RemediesText(const Experiment& experiment, const WalkPr
   std::vector<std::string> lines;
   for (const PlanChange& change : remedies.of_all) {
     lines.push_back("tried, and feasible: every footstep: " + ChangeText(plan, change));
+  }
+  if (remedies.crouch_to_reach) {
+    lines.push_back("tried in part: with " + CrouchText(*remedies.crouch_to_reach) +
+                    " the legs reach, but other demands are missed");
   }
   for (const auto& [step, found] : remedies.steps) {
     const std::string whose = Formatted("footstep %d: ", step + 1);

@@ -18,7 +18,7 @@ class ReachMargin final : public WholeFamily {
       .meaning = "leg shorter than stretched",
       .remedy =
           "shorter steps, a lower `half_step.via_height_m`, or knees that are bent more "
-          "(`standing_posture_deg` of the robot file)",
+          "(`half_step.crouch_m`, or `standing_posture_deg` of the robot file)",
       .sentence = {"the {subject} is {amount} from stretched",
                    "the {subject} is {amount} too short"},
       .coverage = kAlwaysCovered,

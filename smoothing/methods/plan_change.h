@@ -14,6 +14,7 @@ struct PlanChange {
   std::optional<int> step = std::nullopt;
   std::optional<double> duration = std::nullopt;          ///< T of both half-steps [s]
   std::optional<double> via_height = std::nullopt;        ///< [m]
+  std::optional<double> crouch = std::nullopt;            ///< of all half-steps [m]
   std::optional<Eigen::Vector2d> landing = std::nullopt;  ///< of the step, in W [m]
   double farther = 0.0;  ///< so much of the foot's way is the landing off, but for rounding [m]
 };

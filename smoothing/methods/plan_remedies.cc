@@ -18,6 +18,7 @@ constexpr double kHigher[] = {0.01, 0.02,  0.03, 0.04,  0.06, 0.08,  0.1,  -0.01
 constexpr double kTimesLonger[] = {1.1, 1.2, 1.35, 1.5, 1.75, 2.0, 2.5, 3.0, 4.0};
 constexpr double kHigherAndLonger[] = {0.01, 0.02, 0.03, 0.04, 0.06, 0.08, 0.1, 0.13};  // [m]
 constexpr double kTimesLongerAndHigher[] = {1.1, 1.25, 1.5, 2.0};
+constexpr double kLower[] = {0.005, 0.01, 0.02, 0.03, 0.04, 0.06, 0.08};  // [m]
 constexpr double kFarther[] = {0.01,  -0.01, 0.02,  -0.02, 0.03, -0.03,
                                -0.04, 0.04,  -0.06, 0.06,  0.08, -0.08};  // [m]
 
@@ -30,6 +31,17 @@ double Longer(const PlanChange& planned, double by) {
   return Rounded(by * *planned.duration, 0.01);
 }
 
+// Footsteps by their worst demand, the worst first.
+std::vector<int> FootstepsThatMiss(const MissedDemands& missed) {
+  std::vector<int> steps;
+  for (const MissedDemand& demand : missed.demands) {
+    const int step = demand.footstep;
+    if (step < 0) continue;  // no footstep mends where a foot stands at the start
+    if (std::ranges::find(steps, step) == steps.end()) steps.push_back(step);
+  }
+  return steps;
+}
+
 class RemedySearch {
  public:
   RemedySearch(const ChangeablePlan& plan, const FeasibilityTest& test, const std::stop_token& stop)
@@ -37,10 +49,12 @@ class RemedySearch {
     scratch_.stop = stop;
   }
 
-  PlanRemedies Run(std::vector<int> steps) {
+  PlanRemedies Run(const MissedDemands& missed) {
     PlanRemedies remedies;
+    std::vector<int> steps = FootstepsThatMiss(missed);
     if (steps.size() > kMostFootsteps) steps.resize(kMostFootsteps);
     if (steps.size() > 1) remedies.of_all = HeightOrDuration(plan_.usual);
+    if (!LegsReach(missed)) TryCrouching(&remedies);
     std::vector<PlanChange> together;
     for (size_t k = 0; k < steps.size(); ++k) {
       remedies.steps.push_back(OfStep(steps[k]));
@@ -64,6 +78,28 @@ class RemedySearch {
  private:
   bool Stopped() const { return scratch_.stop.stop_requested(); }
   Feasibility Check(const HalfStepSequence& plan) { return CheckPlanned(plan, test_, &scratch_); }
+
+  static bool LegsReach(const MissedDemands& missed) {
+    return std::ranges::none_of(missed.demands, [](const MissedDemand& demand) {
+      return demand.worst.family == MarginFamily::kReach;
+    });
+  }
+
+  void TryCrouching(PlanRemedies* remedies) {
+    std::vector<PlanChange> changes;
+    for (const double by : kLower) changes.push_back({.crouch = *plan_.usual.crouch + by});
+    const size_t others = remedies->of_all.size();
+    Keep(changes, 1, &remedies->of_all);
+    if (remedies->of_all.size() > others) return;
+    for (const PlanChange& change : changes) {
+      const std::optional<HalfStepSequence> lower = plan_.With({change});
+      if (!lower || Stopped()) return;
+      const SuperposedWalk walk(*lower, PlannedMotion(*lower));
+      if (!LegsReach(FindMissedDemands(test_.evaluator(), walk, Check(*lower).witness))) continue;
+      remedies->crouch_to_reach = change.crouch;
+      return;
+    }
+  }
 
   StepRemedies OfStep(int step) {
     const HalfStep& up = Nth(plan_.sequence.half_steps, 2 * step).half_step;
@@ -141,23 +177,12 @@ class RemedySearch {
   MarginEvaluator::Scratch scratch_;
 };
 
-// Footsteps by their worst demand, the worst first.
-std::vector<int> FootstepsThatMiss(const MissedDemands& missed) {
-  std::vector<int> steps;
-  for (const MissedDemand& demand : missed.demands) {
-    const int step = demand.footstep;
-    if (step < 0) continue;  // no footstep mends where a foot stands at the start
-    if (std::ranges::find(steps, step) == steps.end()) steps.push_back(step);
-  }
-  return steps;
-}
-
 }  // namespace
 
 PlanRemedies FindRemedies(const ChangeablePlan& plan, const FeasibilityTest& test,
                           const MissedDemands& missed, const std::stop_token& stop) {
   if (!test.evaluator().scene().rests()) return {};
-  return RemedySearch(plan, test, stop).Run(FootstepsThatMiss(missed));
+  return RemedySearch(plan, test, stop).Run(missed);
 }
 
 }  // namespace halfstep

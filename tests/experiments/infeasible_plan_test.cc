@@ -79,6 +79,25 @@ TEST(RunCommand, AnInfeasiblePlanTellsWhatHelps) {
   EXPECT_EQ(Halfstep(place.path(), with_each).status, kSuccess);
 }
 
+// Three stairs with the feet as far apart as on the floor: a leg is too short, and less so for a
+// robot that crouches.
+TEST(RunCommand, AnInfeasiblePlanTellsHowMuchToCrouch) {
+  const TemporaryFolder place;
+  std::vector<std::string> run = {"run", ShippedConfig("stairs_10cm"), "--overwrite", "--set",
+                                  "start.left.y_m=0.105", "--set", "start.right.y_m=-0.105"};
+  for (int i = 0; i < 4; ++i) {
+    const std::string y = i % 2 == 0 ? "-0.105" : "0.105";
+    run.insert(run.end(), {"--set", "footsteps." + std::to_string(i) + ".y_m=" + y});
+  }
+  const Outcome outcome = Halfstep(place.path(), run);
+  EXPECT_EQ(outcome.status, kFailed);
+  EXPECT_THAT(outcome.err, HasSubstr(" leg is 2."));
+  EXPECT_THAT(outcome.err, HasSubstr("tried, and feasible: every footstep: 0.5 cm of crouch "
+                                     "(`half_step.crouch_m: 0.005`)"));
+  run.insert(run.end(), {"--set", "half_step.crouch_m=0.005"});
+  EXPECT_EQ(Halfstep(place.path(), run).status, kSuccess);
+}
+
 // A plan misses a demand between the instants that are looked at, where the proof found it.
 TEST(RunCommand, AnInfeasiblePlanTellsWhatItMissesForAMoment) {
   const RobotModel robot = LoadRobot(HALFSTEP_SOURCE_DIR "/wpg/robots/hrp2.yaml");
