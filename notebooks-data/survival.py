@@ -93,6 +93,33 @@ def line(cells):
     print("| " + " | ".join(cells) + " |")
 
 
+NONE = "–"  # not measured
+
+
+def once_cell(row, cell):
+    """`cell` of a walk that stands undisturbed."""
+    if not row["undisturbed_stands"]:
+        return NONE
+    return cell(row) if row["undisturbed_stands"] == "1" else "falls"
+
+
+def seeds_cell(row):
+    once = once_cell(row, lambda row: f"{float(row['undisturbed_tilt_deg']):.1f}")
+    if not row["stands"]:
+        return f"{NONE} ({once})"
+    touch = f", t{row['touch']}" if row["touch"] != "0" else ""
+    return (f"{row['stands']}, {float(row['tilt_deg']):.1f} ({once}), "
+            f"{100 * float(row['edge_share']):.0f}{touch}")
+
+
+def tracking_cell(row):
+    parts = [f"{float(row['undisturbed_tilt_deg']):.2f}"]
+    parts += [f"{float(row[f'{part}_most_{unit}']):.1f}, "
+              f"{float(row[f'{part}_largest_{unit}']):.1f}"
+              for part, (_, _, unit) in PARTS.items()]
+    return "; ".join(parts)
+
+
 def tables(path):
     with open(path, encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
@@ -109,27 +136,15 @@ def tables(path):
     line([*head, "D [s]", *seeded])
     line(["---"] * (len(head) + 1 + len(seeded)))
     for walk, method, duration in walks:
-        cells = []
-        for robot in seeded:
-            row = of[walk, method, robot]
-            once = f"{float(row['undisturbed_tilt_deg']):.1f}" \
-                if row["undisturbed_stands"] == "1" else "falls"
-            touch = f", t{row['touch']}" if row["touch"] != "0" else ""
-            cells.append(f"{row['stands']}, {float(row['tilt_deg']):.1f} ({once}), "
-                         f"{100 * float(row['edge_share']):.0f}{touch}")
+        cells = [seeds_cell(row) if (row := of.get((walk, method, robot))) else NONE
+                 for robot in seeded]
         line([*name_of(walk, method), f"{float(duration):.2f}", *cells])
     print()
     line([*head, *robots])
     line(["---"] * (len(head) + len(robots)))
     for walk, method, _ in walks:
-        cells = []
-        for robot in robots:
-            row = of[walk, method, robot]
-            parts = [f"{float(row['undisturbed_tilt_deg']):.2f}"]
-            parts += [f"{float(row[f'{part}_most_{unit}']):.1f}, "
-                      f"{float(row[f'{part}_largest_{unit}']):.1f}"
-                      for part, (_, _, unit) in PARTS.items()]
-            cells.append("; ".join(parts) if row["undisturbed_stands"] == "1" else "falls")
+        cells = [once_cell(row, tracking_cell) if (row := of.get((walk, method, robot))) else NONE
+                 for robot in robots]
         line([*name_of(walk, method), *cells])
 
 
