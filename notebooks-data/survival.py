@@ -3,13 +3,16 @@
 
   survival.py HALFSTEP METHOD RUN… > survival.csv    plays the walks of a method in folders of
                                                      `halfstep run`, four at a time
+  survival.py HALFSTEP --levels RUN… > levels_survival.csv   the same of `dichotomy` and `halfstep/sqp`
+                                                     over levels, on LEVELS, all with seeds
   survival.py --tables survival.csv                  the tables of measurements.md and
                                                      experiments/README.md
 
 A row is a walk on one of ROBOTS, open loop and controlled: once undisturbed (tilt, how far soles,
-waist and joints are from the plan: what 95 % of the time does not exceed, and the largest), and,
+waist and joints are from the plan: what 95 % of the time does not exceed, and the largest), and
 on the robots of SEEDED, with eight seeds (in how many it stands, and in how many of them it touches
-an obstacle; medians of the largest tilt and of the share of time at the soles' edges).
+an obstacle or the side of a level; medians of the largest tilt and of the share of time at the
+soles' edges).
 """
 import concurrent.futures
 import csv
@@ -31,6 +34,8 @@ ROBOTS = {
     "ankle dcm": ["--ankle", "1000,50", "--controller", "dcm"],
 }
 SEEDED = ["ideal", "10000", "10000 dcm", "3000 dcm", "ankle", "ankle dcm"]
+LEVELS = ["ideal", "ideal dcm", "10000", "10000 dcm", "3000", "3000 dcm"]
+LEVEL_METHODS = ["dichotomy", "halfstep/sqp"]
 PARTS = {"feet": ("foot_m", 1e3, "mm"), "waist": ("waist_m", 1e3, "mm"),
          "joints": ("joint_rad", 180 / math.pi, "deg")}
 COLUMNS = ["walk", "method", "duration_s", "robot", "stands", "of", "touch", "tilt_deg",
@@ -48,10 +53,10 @@ def replayed(halfstep, method, run, options):
     return json.loads(out.stdout)["methods"][0]
 
 
-def row_of(halfstep, method, run, robot):
+def row_of(halfstep, method, run, robot, seeded):
     once = replayed(halfstep, method, run, ROBOTS[robot])
     row = [pathlib.Path(run).name, once["method"], f"{once['duration_s']:.3f}", robot]
-    if robot in SEEDED:
+    if robot in seeded:
         seeds = replayed(halfstep, method, run, [*ROBOTS[robot], "--seeds", str(SEEDS)])
         touch = sum(seed["touches"] > 0 for seed in seeds["seeds"])
         tilt = math.degrees(seeds["median"]["largest_tilt_rad"])
@@ -66,11 +71,19 @@ def row_of(halfstep, method, run, robot):
     return row
 
 
-def measure(halfstep, method, runs):
+def certified(run):
+    """Methods of a run that found a certified walk."""
+    with open(pathlib.Path(run) / "summary.csv", encoding="utf-8") as file:
+        return [row["method"] for row in csv.DictReader(file)
+                if row["certified"] == "true" and row["method"] in LEVEL_METHODS]
+
+
+def measure(halfstep, walks, robots, seeded):
     table = csv.writer(sys.stdout, lineterminator="\n")
     table.writerow(COLUMNS)
     with concurrent.futures.ThreadPoolExecutor(4) as pool:
-        cells = [(halfstep, method, run, robot) for run in runs for robot in ROBOTS]
+        cells = [(halfstep, method, run, robot, seeded)
+                 for run, method in walks for robot in robots]
         for row in pool.map(lambda cell: row_of(*cell), cells):
             table.writerow(row)
             sys.stdout.flush()
@@ -80,43 +93,69 @@ def line(cells):
     print("| " + " | ".join(cells) + " |")
 
 
+NONE = "–"  # not measured
+
+
+def once_cell(row, cell):
+    """`cell` of a walk that stands undisturbed."""
+    if not row["undisturbed_stands"]:
+        return NONE
+    return cell(row) if row["undisturbed_stands"] == "1" else "falls"
+
+
+def seeds_cell(row):
+    once = once_cell(row, lambda row: f"{float(row['undisturbed_tilt_deg']):.1f}")
+    if not row["stands"]:
+        return f"{NONE} ({once})"
+    touch = f", t{row['touch']}" if row["touch"] != "0" else ""
+    return (f"{row['stands']}, {float(row['tilt_deg']):.1f} ({once}), "
+            f"{100 * float(row['edge_share']):.0f}{touch}")
+
+
+def tracking_cell(row):
+    parts = [f"{float(row['undisturbed_tilt_deg']):.2f}"]
+    parts += [f"{float(row[f'{part}_most_{unit}']):.1f}, "
+              f"{float(row[f'{part}_largest_{unit}']):.1f}"
+              for part, (_, _, unit) in PARTS.items()]
+    return "; ".join(parts)
+
+
 def tables(path):
     with open(path, encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
-    walks = list(dict.fromkeys((row["walk"], row["duration_s"]) for row in rows))
-    of = {(row["walk"], row["robot"]): row for row in rows}
-    line(["walk", "D [s]", *SEEDED])
-    line(["---"] * (2 + len(SEEDED)))
-    for walk, duration in walks:
-        cells = []
-        for robot in SEEDED:
-            row = of[walk, robot]
-            once = f"{float(row['undisturbed_tilt_deg']):.1f}" \
-                if row["undisturbed_stands"] == "1" else "falls"
-            touch = f", t{row['touch']}" if row["touch"] != "0" else ""
-            cells.append(f"{row['stands']}, {float(row['tilt_deg']):.1f} ({once}), "
-                         f"{100 * float(row['edge_share']):.0f}{touch}")
-        line([f"`{walk}`", f"{float(duration):.2f}", *cells])
+    walks = list(dict.fromkeys((row["walk"], row["method"], row["duration_s"]) for row in rows))
+    of = {(row["walk"], row["method"], row["robot"]): row for row in rows}
+    robots = list(dict.fromkeys(row["robot"] for row in rows))
+    seeded = list(dict.fromkeys(row["robot"] for row in rows if row["stands"]))
+    several = len({method for _, method, _ in walks}) > 1
+
+    def name_of(walk, method):
+        return [f"`{walk}`", f"`{method}`"] if several else [f"`{walk}`"]
+
+    head = ["walk", "method"] if several else ["walk"]
+    line([*head, "D [s]", *seeded])
+    line(["---"] * (len(head) + 1 + len(seeded)))
+    for walk, method, duration in walks:
+        cells = [seeds_cell(row) if (row := of.get((walk, method, robot))) else NONE
+                 for robot in seeded]
+        line([*name_of(walk, method), f"{float(duration):.2f}", *cells])
     print()
-    line(["walk", *ROBOTS])
-    line(["---"] * (1 + len(ROBOTS)))
-    for walk, _ in walks:
-        cells = []
-        for robot in ROBOTS:
-            row = of[walk, robot]
-            parts = [f"{float(row['undisturbed_tilt_deg']):.2f}"]
-            parts += [f"{float(row[f'{part}_most_{unit}']):.1f}, "
-                      f"{float(row[f'{part}_largest_{unit}']):.1f}"
-                      for part, (_, _, unit) in PARTS.items()]
-            cells.append("; ".join(parts) if row["undisturbed_stands"] == "1" else "falls")
-        line([f"`{walk}`", *cells])
+    line([*head, *robots])
+    line(["---"] * (len(head) + len(robots)))
+    for walk, method, _ in walks:
+        cells = [once_cell(row, tracking_cell) if (row := of.get((walk, method, robot))) else NONE
+                 for robot in robots]
+        line([*name_of(walk, method), *cells])
 
 
 def main():
     if len(sys.argv) == 3 and sys.argv[1] == "--tables":
         tables(sys.argv[2])
+    elif len(sys.argv) > 3 and sys.argv[2] == "--levels":
+        walks = [(run, method) for run in sys.argv[3:] for method in certified(run)]
+        measure(sys.argv[1], walks, LEVELS, LEVELS)
     elif len(sys.argv) > 3:
-        measure(sys.argv[1], sys.argv[2], sys.argv[3:])
+        measure(sys.argv[1], [(run, sys.argv[2]) for run in sys.argv[3:]], list(ROBOTS), SEEDED)
     else:
         sys.exit(__doc__)
 

@@ -52,8 +52,9 @@ release_only="$release_only|walks.stand"
 # What .ci/run has no time for: 20 minutes on two cores, of which half are the build's.
 all_only='^$'
 if [ "$presets" = release ]; then
-  # Of the three bars, which differ in height, 8 cm stays.
-  all_only='walks.stand/(bar_10cm|bar_5cm|clutter|crossing|cylinders|fence|island|plan_bar|random_room|wren)'
+  # Of the three bars, which differ in height, 8 cm stays, and of walks over levels one.
+  all_only='walks.stand/(bar_10cm|bar_5cm|clutter|crossing|cylinders|fence|island|plan_bar|platform|random_room|stones|wren)'
+  all_only="$all_only|walks.stand/stairs_(10cm_down|15cm)"
   all_only="$all_only|(ReportPage|LivePage).InABrowser"
 fi
 

@@ -89,7 +89,7 @@ class WalkExport {
         whole_(LoadWholeRobot(RobotPath(config_).string())),
         joints_(OrderedJoints(whole_.tree, command.joints)),
         folder_(*folder) {
-    if (command.format == "mjcf") obstacles_ = Obstacles();
+    if (command.format == "mjcf") world_ = World();
     frames_ = FindFrameFormat(command.format);
     if (IsOfMotion()) experiment_ = Prepare(config_);
     if (frames_ != nullptr) bodies_.emplace(RobotPath(config_).string());
@@ -127,12 +127,12 @@ class WalkExport {
     return RowPeriodOf(config_, rows.size() > 1 ? rows[1].t : kRowPeriod);
   }
 
-  std::vector<replay::SimulatedObstacle> Obstacles() const {
+  replay::SimulatedObstacles World() const {
     const auto scene = ScenePath(config_);
     if (!scene) return {};
     replay::SimulatedObstacles world = replay::ObstaclesOf(LoadScene(scene->string()));
     for (const std::string& note : world.notes) std::cerr << "halfstep: " << note << '\n';
-    return world.obstacles;
+    return world;
   }
 
   void WriteHrpsysFiles(const std::string& name, const std::string& trajectory) {
@@ -162,7 +162,7 @@ class WalkExport {
         MotionOfRows(whole_.model, walk, rows, stride_, trajectory);
     if (command_.format == "mjcf") {
       folder_.Write(name + ".xml",
-                    replay::MujocoKeyframes(whole_.model, whole_.tree, obstacles_, motion));
+                    replay::MujocoKeyframes(whole_.model, whole_.tree, world_, motion));
     } else {
       folder_.Write(name + ".yaml",
                     JointTrajectoryYaml(whole_.model, whole_.tree, joints_, motion));
@@ -192,7 +192,7 @@ class WalkExport {
   RunFolder& folder_;
   double period_ = kRowPeriod;  // of the method that is written
   size_t stride_ = 1;
-  std::vector<replay::SimulatedObstacle> obstacles_;
+  replay::SimulatedObstacles world_;
   std::optional<Experiment> experiment_;
   const FrameFormat* frames_ = nullptr;  // null: a format of something else
   std::optional<BodyMotion> bodies_;     // of such a format

@@ -64,7 +64,12 @@ void CheckTube(const ReplayCommand& command) {
 
 Task TaskOf(const ReplayCommand& command, WholeRobot robot,
             const replay::SimulatedObstacles& world) {
-  Task task{.setup = command.simulated.SetupOf(std::move(robot), world.obstacles),
+  if (command.suggest_tube && world.ground.uneven()) {
+    throw InputError(
+        {"--suggest-tube: the scene's ground has levels, and tubes know the flat floor only "
+         "(valid: a scene without `surfaces`)"});
+  }
+  Task task{.setup = command.simulated.SetupOf(std::move(robot), world),
             .notes = world.notes,
             .motions = {}};
   task.setup.measures_tube = command.suggest_tube;
@@ -180,7 +185,7 @@ ExitStatus ReplaySeeds(const Telling& telling) {
     replay::SeedsPlayed& played = all.emplace_back(
         replay::SeedsPlayed{.method = one.method,
                             .duration = one.motion.end(),
-                            .obstacles = !task.setup.obstacles.empty(),
+                            .obstacles = task.setup.has_touchable(),
                             .seeds = replay::PlaySeeds(
                                 task.setup, one.motion, *command.seeds,
                                 [&bar](double done) { bar.Update(done); }, interrupt.token())});

@@ -15,7 +15,7 @@ struct Contact {
   Side foot = Side::kLeft;  ///< that came
   int half_step = 0;        ///< the down half-step that should have brought it, from 0
   double late = 0.0;        ///< after it should have carried [s]; below 0: before its landing
-  double height = 0.0;      ///< that its sole had then by the plan [m]
+  double height = 0.0;      ///< that its sole had then by the plan, above where it lands [m]
 };
 
 /// Watches the soles' measured forces: which foot carries, and which came to the floor early or
@@ -27,8 +27,8 @@ class ContactWatch {
   static constexpr double kCarries = 0.05;
   static constexpr double kDue = 0.1;    ///< of the weight
   static constexpr double kLate = 0.05;  ///< a contact that is later is told [s]
-  /// So high by the plan a sole meets the floor early; lower, the servos' sag brings it there.
-  /// Share of the height of the CoM.
+  /// So high by the plan above its footstep a sole meets the floor early; lower, the servos' sag
+  /// brings it there. Share of the height of the CoM.
   static constexpr double kEarly = 0.005;
 
   /// Of a robot whose mass is known.
@@ -46,7 +46,9 @@ class ContactWatch {
     std::optional<double> due;  // since when it should have carried [s]
     bool misses = false;
   };
-  double least_, early_;
+  double ShareOf(const SuperposedWalk& walk, const LocalTime& at, Side side) const;
+
+  double least_, early_, com_height_;
   Eigen::Vector2d sole_size_;
   std::array<Foot, 2> feet_;
 };

@@ -84,16 +84,20 @@ void DcmController::MeetFloor(const MeasuredState& measured, const PlannedState&
     foot.pressed = pressed;
     if (then->stands[s]) {
       foot.met = 0.0;
+      foot.from = then->levels[s];
+      foot.lifted = false;
       foot.landed = foot.landed || carries;
       const bool awaited = !foot.landed && due[s].force >= ContactWatch::kDue * weight;
       foot.missing = awaited ? foot.missing + kPeriod : 0.0;
     } else {
       foot.landed = foot.landed && pressed;
       foot.missing = 0.0;
-      const double z = then->X_WSole[s].translation().z();
-      if (carries && !foot.landed && foot.met == 0.0 && z >= high) foot.met = z;
+      const double z_W = then->X_WSole[s].translation().z(), z = z_W - then->levels[s];
+      foot.lifted = foot.lifted || z_W - foot.from >= high;
+      const bool meets = foot.lifted && carries && !foot.landed && foot.met == 0.0;
+      if (meets && z >= high) foot.met = z;
     }
-    const double z = next.X_WSole[s].translation().z();
+    const double z = next.X_WSole[s].translation().z() - next.levels[s];
     if (foot.met > 0.0) {
       foot.floor = std::max(0.0, foot.met - z);
     } else if (foot.missing > ContactWatch::kLate) {
@@ -155,8 +159,8 @@ void DcmController::ShiftWaist(const MeasuredState& measured, const PlannedState
   double force = 0.0;
   for (size_t s = 0; s < 2; ++s) {
     const SoleLoad& load = measured.loads[s];
-    moment +=
-        load.force * (then.X_WSole[s] * Vector3d(load.centre.x(), load.centre.y(), 0.0)).head<2>();
+    const Vector3d place = then.X_WSole[s] * Vector3d(load.centre.x(), load.centre.y(), 0.0);
+    moment += load.force * (place.head<2>() + (then.zmp_height - place.z()) * then.tilt);
     force += load.force;
   }
   const bool carried = force > kCarries * robot_.mass * kGravity;

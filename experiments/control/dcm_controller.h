@@ -65,7 +65,11 @@ class DcmController final : public TrackingController {
     Eigen::Vector3d shift{0, 0, 0};  // against where the waist is [m]
     // Of the floor that it met or misses: the sole's height off the plan [m].
     double floor = 0.0;
-    double met = 0.0;  // planned height at which it met the floor in this flight; 0: not yet [m]
+    // Planned height, above where it is to land, at which it met the ground in this flight; 0: not
+    // yet [m].
+    double met = 0.0;
+    double from = 0.0;     // z of where it stood before its flight, in W [m]
+    bool lifted = false;   // in this flight it has been planned clearly above there
     double missing = 0.0;  // for how long it has missed the floor since it should have landed [s]
     bool pressed = true, landed = true;
   };

@@ -37,8 +37,14 @@ struct PlannedState {
   std::array<bool, 2> stands{};              ///< whether a sole carries
   Eigen::Vector3d com{0, 0, 0};              ///< of the whole robot, by its masses, in W [m]
   Eigen::Vector3d com_velocity{0, 0, 0};     ///< [m/s]
-  Eigen::Vector2d zmp{0, 0};  ///< of the whole robot, not of the walk's model, in W [m]
-  double force = 0.0;         ///< that the floor gives, along z of W [N]
+  /// Of the whole robot, not of the walk's model, in W, in the plane z = zmp_height [m].
+  Eigen::Vector2d zmp{0, 0};
+  double zmp_height = 0.0;  ///< of the sole that stands, or halfway between two, in W [m]
+  /// How far the ZMP goes aside for each metre of that plane's height: f_t/f_z of the force.
+  Eigen::Vector2d tilt{0, 0};
+  /// Where each sole stands or will stand next, after its last landing where it stands: z in W [m].
+  std::array<double, 2> levels{};
+  double force = 0.0;  ///< that the floor gives, along z of W [N]
 };
 
 /// What the servos shall do, by Index(Side). Between two commands they follow the cubic that has

@@ -37,7 +37,7 @@ HrpsysFiles WriteHrpsys(const RobotModel& robot, const RobotTree& tree,
     }
     Eigen::Matrix<double, 6, 1> waist;
     waist << row.waist.head<3>(), 0.0, 0.0, row.waist[3];
-    const Eigen::Vector3d p_WZ(row.zmp.x(), row.zmp.y(), 0.0);
+    const Eigen::Vector3d p_WZ(row.zmp.x(), row.zmp.y(), row.zmp_z);
     AppendLine(t, q, &files.pos);
     AppendLine(t, row.X_WB().inverse() * p_WZ, &files.zmp);
     AppendLine(t, waist, &files.waist);

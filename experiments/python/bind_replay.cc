@@ -48,8 +48,11 @@ Played Play(const ReplayCall& call, const Toolbox& tools, const LongCallHooks& h
     throw std::invalid_argument("replay: " + why);
   }
   replay::RecordedRun run = replay::ReadRun(call.run, call.method, tools);
-  replay::ReplaySetup setup =
-      replay::SetupOf(std::move(run.robot), run.world.obstacles, call.robot);
+  if (call.suggest_tube && run.world.ground.uneven()) {
+    throw std::invalid_argument(
+        "suggest_tube: the scene's ground has levels, and tubes know the flat floor only");
+  }
+  replay::ReplaySetup setup = replay::SetupOf(std::move(run.robot), run.world, call.robot);
   const RobotModel& robot = setup.robot.model;
   setup.measures_tube = call.suggest_tube;
   if (call.make) {
@@ -66,7 +69,7 @@ Played Play(const ReplayCall& call, const Toolbox& tools, const LongCallHooks& h
     replay::SeedsPlayed played{
         .method = call.method,
         .duration = motion.end(),
-        .obstacles = !setup.obstacles.empty(),
+        .obstacles = setup.has_touchable(),
         .seeds = replay::PlaySeeds(
             setup, motion, *call.seeds, [&hooks](double done) { hooks.progress("seeds", done); },
             hooks.stop)};

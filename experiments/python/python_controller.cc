@@ -53,7 +53,8 @@ py::tuple TupleOf(const PlannedState& state) {
   return py::make_tuple(state.t, RowsOf(state.q), RowsOf(state.speeds), RowsOf(state.torques),
                         state.X_WB.matrix(), state.X_WSole[0].matrix(), state.X_WSole[1].matrix(),
                         py::make_tuple(bool{state.stands[0]}, bool{state.stands[1]}), state.com,
-                        state.com_velocity, state.zmp, state.force);
+                        state.com_velocity, state.zmp, state.force, state.zmp_height, state.tilt,
+                        py::make_tuple(double{state.levels[0]}, double{state.levels[1]}));
 }
 
 // Released with the GIL, wherever the last owner is.

@@ -31,13 +31,14 @@ std::vector<Eigen::Vector2d> MassModelZmp(const RobotModel& robot, const RobotTr
     for (size_t link = 0; link < tree.urdf.links.size(); ++link) {
       const double mass = tree.urdf.links[link].mass;
       const Vector3d& p = centres[i][link];
+      const double height = p.z() - rows[i].zmp_z;
       Vector3d a = Vector3d::Zero();
       if (i > 0 && i + 1 < rows.size()) {
         const double before = rows[i].t - rows[i - 1].t, after = rows[i + 1].t - rows[i].t;
         a = 2 / (before + after) *
             ((centres[i + 1][link] - p) / after - (p - centres[i - 1][link]) / before);
       }
-      moment += mass * (p.head<2>() * (a.z() + kGravity) - p.z() * a.head<2>());
+      moment += mass * (p.head<2>() * (a.z() + kGravity) - height * a.head<2>());
       force += mass * (a.z() + kGravity);
     }
     zmp.push_back(moment / force);

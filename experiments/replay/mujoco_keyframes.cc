@@ -103,9 +103,11 @@ class KeyWriter {
 }  // namespace
 
 std::string MujocoKeyframes(const RobotModel& robot, const RobotTree& tree,
-                            const std::vector<SimulatedObstacle>& obstacles,
+                            const SimulatedObstacles& world,
                             const std::vector<JointMotion>& motion) {
-  const ModelOptions options = PhysicsOf(robot);
+  const std::vector<SimulatedObstacle>& obstacles = world.obstacles;
+  ModelOptions options = PhysicsOf(robot);
+  options.floor.ground = world.ground;
   std::string text = MujocoModel(robot, tree, options, obstacles);
   text.resize(text.size() - kEnd.size());
   if (!obstacles.empty()) {

@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include "experiments/replay/foot_body.h"
 #include "experiments/replay/mujoco_geoms.h"
+#include "planner/scene/solid_body.h"
 #include "wpg/files/number_text.h"
 #include "wpg/geometry/rotation.h"
 #include "wpg/nth.h"
@@ -21,11 +23,15 @@ constexpr double kPlateHalf = 0.1;
 // Principal moments of inertia below it are raised to it [kg m²]; MuJoCo refuses those of 0, which
 // links of sensors have.
 constexpr double kLeastInertia = 1e-6;
-// Soles touch the floor (bit 1), bodies of the robot touch obstacles (bit 2), nothing else does.
+// Soles touch the ground (bit 1), bodies of the robot touch obstacles (bit 2) and the ground's
+// solids (bit 4), nothing else does.
 constexpr const char* kFloorBits = " contype=\"1\" conaffinity=\"0\"";
 constexpr const char* kSoleBits = " contype=\"0\" conaffinity=\"1\"";
 constexpr const char* kObstacleBits = " contype=\"2\" conaffinity=\"0\"";
 constexpr const char* kBodyBits = " contype=\"0\" conaffinity=\"2\"";
+constexpr const char* kSolidBits = " contype=\"5\" conaffinity=\"0\"";
+constexpr const char* kBodyOnSolidsBits = " contype=\"0\" conaffinity=\"6\"";
+constexpr const char* kFootOnSolidsBits = " contype=\"0\" conaffinity=\"4\"";
 
 template <typename Vector>
 std::string Numbers(const Vector& values) {
@@ -61,7 +67,8 @@ class Writer {
     text_ += "  <compiler angle=\"radian\" balanceinertia=\"true\" boundmass=\"1e-4\"" +
              Attribute("boundinertia", ShortestText(kLeastInertia)) + "/>\n";
     text_ += "  <option integrator=\"implicit\" cone=\"elliptic\"" +
-             Attribute("timestep", ShortestText(options_.timestep)) + "/>\n  <worldbody>\n";
+             Attribute("timestep", ShortestText(options_.timestep)) + OptionEnd() +
+             "  <worldbody>\n";
     AddFloor();
     AddLink(0, "    ", false);
     for (size_t i = 0; i < obstacles_.size(); ++i) AddObstacle(i);
@@ -107,21 +114,62 @@ class Writer {
              Contact() + "/>\n";
   }
 
-  // The bodies that are rigid with a link. Without obstacles there is nothing for them to touch.
+  const std::vector<GroundSolid>& solids() const { return options_.floor.ground.solids; }
+
+  // The bodies that are rigid with a link. Without obstacles and solids there is nothing for them
+  // to touch.
   void AddBodies(int link, const std::string& indent) {
-    if (obstacles_.empty()) return;
+    if (obstacles_.empty() && solids().empty()) return;
     for (size_t i = 0; i < robot_.bodies.size(); ++i) {
       const RobotBody& body = robot_.bodies[i];
       if (LinkOf(body.leg, body.link) != link) continue;
-      AddGeom(body.shape, "body_" + std::to_string(i), kBodyBits, indent);
+      const std::string name = "body_" + std::to_string(i);
+      const bool of_foot = body.leg >= 0 && body.link == 5;
+      AddGeom(body.shape, name, solids().empty() || of_foot ? kBodyBits : kBodyOnSolidsBits,
+              indent);
+      if (solids().empty() || !of_foot) continue;
+      const Isometry3d X_SoleLink = X_LinkSole(static_cast<Side>(body.leg)).inverse();
+      if (const auto above = AboveSole(body.shape, X_SoleLink, 2 * kSoleHalf)) {
+        AddGeom(*above, name + "_above", kFootOnSolidsBits, indent);
+      }
     }
+  }
+
+  // Several contacts at once of a sole and a solid that is no box.
+  std::string OptionEnd() const {
+    for (const GroundSolid& solid : solids()) {
+      if (!std::holds_alternative<Box>(BodyOf(solid).shape)) {
+        return "><flag multiccd=\"enable\"/></option>\n";
+      }
+    }
+    return "/>\n";
+  }
+
+  void AddSolid(size_t index) {
+    const Obstacle solid = BodyOf(Nth(solids(), index));
+    const std::string name = "solid_" + std::to_string(index);
+    MujocoGeom geom;
+    if (const Box* const box = std::get_if<Box>(&solid.shape)) {
+      geom.shape = " type=\"box\"" + Attribute("size", Numbers((0.5 * box->size).eval()));
+    } else {
+      geom = GeomOf(std::get<ConvexBody>(solid.shape), name);
+      assets_ += "    " + geom.asset + "\n";
+    }
+    text_ += "    <geom" + Attribute("name", name) + geom.shape +
+             PlaceAttributes(options_.floor.X_WFloor * solid.X_WO) + kSolidBits + Contact() +
+             "/>\n";
   }
 
   void AddFloor() {
     const SimulatedFloor& floor = options_.floor;
     const bool level = floor.X_WFloor.matrix().isIdentity(0.0);
-    text_ += std::string("    <geom name=\"floor\" type=\"plane\" size=\"0 0 1\"") +
-             (level ? "" : PlaceAttributes(floor.X_WFloor)) + kFloorBits + Contact() + "/>\n";
+    if (floor.ground.floor) {
+      text_ += std::string("    <geom name=\"floor\" type=\"plane\" size=\"0 0 1\"") +
+               (level ? "" : PlaceAttributes(floor.X_WFloor)) + kFloorBits + Contact() + "/>\n";
+    } else {
+      text_ += "    <site name=\"floor\"" + PlaceAttributes(floor.X_WFloor) + "/>\n";
+    }
+    for (size_t i = 0; i < solids().size(); ++i) AddSolid(i);
     for (const FloorPlate& plate : floor.plates) {
       const Eigen::Vector3d half(plate.size.x() / 2, plate.size.y() / 2, kPlateHalf);
       const Isometry3d X = floor.X_WFloor * plate.X_FP * Eigen::Translation3d(0, 0, -kPlateHalf);

@@ -46,11 +46,13 @@ std::string BodyName(const std::string& link);
 /// The robot as a MuJoCo model (MJCF), standing on the floor: the URDF's links with their
 /// masses and inertias, a free base, hinges in the legs with servos (actuators: left leg from the
 /// hip, then right), every other joint welded in the standing posture, and soles as boxes that
-/// touch the floor and nothing else. Names are the URDF's, those of links as BodyName() says; soles
-/// are "left_sole", "right_sole". Obstacles are mocap bodies in their order; with them the robot
-/// gets its convex bodies, which touch obstacles and nothing else: "body_I" by their index in
-/// RobotModel::bodies. Principal moments of inertia below 1e-6 kg m², which MuJoCo refuses when
-/// they are 0, are raised to it.
+/// touch the ground and nothing else. Names are the URDF's, those of links as BodyName() says;
+/// soles are "left_sole", "right_sole". Obstacles are mocap bodies in their order; with them the
+/// robot gets its convex bodies, which touch obstacles and nothing else: "body_I" by their index in
+/// RobotModel::bodies. The ground's solids are fixed, "solid_I" by their index; soles stand on
+/// them, and bodies touch them, those of feet only above the sole's box ("body_I_above"). Without a
+/// floor a site "floor" is where its plane would be. Principal moments of inertia below 1e-6 kg m²,
+/// which MuJoCo refuses when they are 0, are raised to it.
 std::string MujocoModel(const RobotModel& robot, const RobotTree& tree, const ModelOptions& options,
                         const std::vector<SimulatedObstacle>& obstacles = {});
 

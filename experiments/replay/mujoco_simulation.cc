@@ -1,9 +1,11 @@
 #include <mujoco/mujoco.h>
 
 #include <clocale>
+#include <cmath>
 #include <cstring>
 #include <locale>
 #include <map>
+#include <optional>
 #include <stdexcept>
 
 #include "experiments/replay/mujoco_model.h"
@@ -85,7 +87,7 @@ struct Simulation::State {
   // What copies share.
   struct Layout {
     std::shared_ptr<const mjModel> model;
-    int floor = 0;                           // geom
+    int floor = 0;                           // geom, −1: there is none
     int waist = 0;                           // body
     std::array<int, 2> soles{};              // geoms
     std::array<std::array<int, 6>, 2> qpos;  // where the legs' angles stand
@@ -93,16 +95,26 @@ struct Simulation::State {
     double stiffness = 0.0, damping = 0.0;   // of the servos
     std::vector<SimulatedObstacle> obstacles;
     std::vector<int> robot_bodies;  // by geom: index of RobotModel::bodies, −1: none
+    int num_robot_bodies = 0;
+    std::vector<int> solids;  // by geom: index of the ground's solids, −1: none
   };
   std::shared_ptr<const Layout> layout;
   std::unique_ptr<mjData, void (*)(mjData*)> data{nullptr, mj_deleteData};
 
   const mjModel* model() const { return layout->model.get(); }
   Eigen::Isometry3d Body(int id) const { return Pose(data->xpos + 3 * id, data->xmat + 9 * id); }
-  // The obstacle that a geom is of, −1: none.
-  int ObstacleOf(int geom) const { return model()->body_mocapid[model()->geom_bodyid[geom]]; }
-  // Whether a geom is the floor or a plate on it: nothing else is fixed to the world.
+  // The obstacle that a geom is of, solids of the ground after all obstacles; −1: none.
+  int ObstacleOf(int geom) const {
+    const int solid = Nth(layout->solids, geom);
+    if (solid >= 0) return static_cast<int>(layout->obstacles.size()) + solid;
+    return model()->body_mocapid[model()->geom_bodyid[geom]];
+  }
+  // Whether a geom is the floor, a plate on it or a solid: nothing else is fixed to the world.
   bool IsFloor(int geom) const { return model()->geom_bodyid[geom] == 0; }
+  // The side of the sole that a geom is, −1: it is none.
+  int SoleOf(int geom) const {
+    return geom == layout->soles[0] ? 0 : geom == layout->soles[1] ? 1 : -1;
+  }
   // The force of a contact's first geom on its second, in W.
   Vector3d ForceOf(int contact) const {
     std::array<mjtNum, 6> local{};
@@ -111,6 +123,25 @@ struct Simulation::State {
     const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> frame(
         data->contact[contact].frame);
     return frame.transpose() * Eigen::Map<const Vector3d>(local.data());
+  }
+  // What the ground does to a sole at a contact.
+  struct SoleContact {
+    size_t side = 0;
+    Vector3d force;     // on the sole, in W [N]
+    bool upon = false;  // the sole is on the ground, not beside a solid of it
+  };
+  // None: it is another one.
+  std::optional<SoleContact> SoleContactAt(int index) const {
+    const mjContact& contact = data->contact[index];
+    const bool swapped = IsFloor(contact.geom2);
+    const int ground = swapped ? contact.geom2 : contact.geom1;
+    const int sole = SoleOf(swapped ? contact.geom1 : contact.geom2);
+    if (!IsFloor(ground) || sole < 0) return std::nullopt;
+    constexpr double kSteep = 0.5;  // z of the normal beside a solid
+    SoleContact found{static_cast<size_t>(sole), ForceOf(index)};
+    if (swapped) found.force = -found.force;
+    found.upon = Nth(layout->solids, ground) < 0 || std::abs(contact.frame[2]) > kSteep;
+    return found;
   }
 };
 
@@ -124,7 +155,7 @@ Simulation::Simulation(const std::string& mjcf, const RobotModel& robot,
   State::Layout layout;
   layout.model = Compile(mjcf);
   const mjModel& model = *layout.model;
-  layout.floor = Find(model, mjOBJ_GEOM, "floor");
+  layout.floor = mj_name2id(&model, mjOBJ_GEOM, "floor");
   layout.waist = Find(model, mjOBJ_BODY, BodyName(waist_link));
   for (size_t side = 0; side < 2; ++side) {
     const std::string name(Name(static_cast<Side>(side)));
@@ -140,9 +171,18 @@ Simulation::Simulation(const std::string& mjcf, const RobotModel& robot,
   HALFSTEP_CHECK(model.nmocap == std::ssize(obstacles), "obstacles of a model");
   layout.obstacles = obstacles;
   layout.robot_bodies.assign(static_cast<size_t>(model.ngeom), -1);
-  for (size_t i = 0; i < robot.bodies.size() && !obstacles.empty(); ++i) {
-    const int geom = Find(model, mjOBJ_GEOM, "body_" + std::to_string(i));
-    Nth(layout.robot_bodies, geom) = static_cast<int>(i);
+  layout.solids.assign(static_cast<size_t>(model.ngeom), -1);
+  const auto solid = [&model](int i) {
+    return mj_name2id(&model, mjOBJ_GEOM, ("solid_" + std::to_string(i)).c_str());
+  };
+  const bool has_solids = solid(0) >= 0;
+  for (int i = 0; solid(i) >= 0; ++i) Nth(layout.solids, solid(i)) = i;
+  layout.num_robot_bodies = static_cast<int>(robot.bodies.size());
+  for (int i = 0; i < layout.num_robot_bodies && (has_solids || !obstacles.empty()); ++i) {
+    const std::string name = "body_" + std::to_string(i);
+    Nth(layout.robot_bodies, Find(model, mjOBJ_GEOM, name)) = i;
+    const int above = mj_name2id(&model, mjOBJ_GEOM, (name + "_above").c_str());
+    if (above >= 0) Nth(layout.robot_bodies, above) = i;
   }
   state_->data.reset(mj_makeData(&model));
   state_->layout = std::make_shared<const State::Layout>(std::move(layout));
@@ -164,7 +204,10 @@ double Simulation::weight() const {
 Eigen::Isometry3d Simulation::X_WFloor() const {
   const mjModel& model = *state_->model();
   const int floor = state_->layout->floor;
-  const mjtNum *const p = model.geom_pos + 3 * floor, *const q = model.geom_quat + 4 * floor;
+  const int site = floor >= 0 ? -1 : Find(model, mjOBJ_SITE, "floor");
+  const mjtNum *const p = floor >= 0 ? model.geom_pos + 3 * floor : model.site_pos + 3 * site,
+                      *const q =
+                          floor >= 0 ? model.geom_quat + 4 * floor : model.site_quat + 4 * site;
   const Eigen::Isometry3d X =
       Eigen::Translation3d(p[0], p[1], p[2]) * Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
   const int start = mj_name2id(&model, mjOBJ_GEOM, "start");
@@ -228,13 +271,13 @@ FloorForces Simulation::Step(const JointTargets& targets, const Eigen::Vector3d&
   }
   FloorForces forces;
   for (int i = 0; i < data->ncon; ++i) {
-    const mjContact& contact = data->contact[i];
-    if (!state_->IsFloor(contact.geom1)) continue;  // it comes before the soles
-    const Vector3d force = state_->ForceOf(i);
-    const Eigen::Map<const Vector3d> place(contact.pos);
-    const size_t side = contact.geom2 == layout.soles[0] ? 0 : 1;
+    const auto contact = state_->SoleContactAt(i);
+    if (!contact || !contact->upon) continue;
+    const Vector3d& force = contact->force;
+    const Eigen::Map<const Vector3d> place(data->contact[i].pos);
     forces.pressure += force.z() * place.head<2>();
-    forces.vertical[side] += force.z();
+    forces.vertical[contact->side] += force.z();
+    forces.horizontal += force.head<2>();
     forces.moment += force.z() * place.head<2>() - place.z() * force.head<2>();
   }
   return forces;
@@ -295,7 +338,10 @@ std::vector<Touch> Simulation::touches() const {
     const int obstacle = state_->ObstacleOf(swapped ? contact.geom2 : contact.geom1);
     if (obstacle < 0) continue;
     const int geom = swapped ? contact.geom1 : contact.geom2;
-    const int body = Nth(state_->layout->robot_bodies, geom);
+    const int sole = state_->SoleOf(geom);
+    if (sole >= 0 && state_->SoleContactAt(i)->upon) continue;
+    const int body = sole >= 0 ? state_->layout->num_robot_bodies + sole
+                               : Nth(state_->layout->robot_bodies, geom);
     const auto [at, is_new] = forces.try_emplace({body, obstacle}, Vector3d::Zero());
     at->second += swapped ? -state_->ForceOf(i) : state_->ForceOf(i);
   }
@@ -346,8 +392,9 @@ control::MeasuredState Simulation::Measure() const {
     const Eigen::Isometry3d X_SoleW = X_WSole(static_cast<Side>(side)).inverse();
     control::SoleLoad& load = measured.loads[side];
     for (int i = 0; i < data->ncon; ++i) {
-      if (data->contact[i].geom2 != layout.soles[side]) continue;
-      const Vector3d force = X_SoleW.linear() * state_->ForceOf(i);
+      const auto contact = state_->SoleContactAt(i);
+      if (!contact || contact->side != side) continue;
+      const Vector3d force = X_SoleW.linear() * contact->force;
       const Vector3d place = X_SoleW * Eigen::Map<const Vector3d>(data->contact[i].pos);
       load.force += force.z();
       load.centre += force.z() * place.head<2>() - place.z() * force.head<2>();

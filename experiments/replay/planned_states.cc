@@ -1,10 +1,13 @@
 #include "experiments/replay/planned_states.h"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include "experiments/control/state_estimate.h"
 #include "wpg/motion/foot_loads.h"
 #include "wpg/motion/leg_torques.h"
+#include "wpg/motion/standing_heights.h"
 #include "wpg/nth.h"
 #include "wpg/robot/gravity.h"
 
@@ -33,11 +36,35 @@ WalkJet JetAt(const RobotModel& robot, const std::vector<TrajectoryRow>& rows, s
   return jet;
 }
 
-FootLoads LoadsOf(const RobotModel& robot, const TrajectoryRow& row, const Eigen::Vector2d& zmp) {
-  if (!row.stands[1]) return FootLoads::OneFoot(Side::kLeft);
-  if (!row.stands[0]) return FootLoads::OneFoot(Side::kRight);
-  const auto place = [](const Eigen::Vector4d& sole) { return Pose2{sole[0], sole[1], sole[3]}; };
-  return FootLoads::BothFeet(place(row.soles[0]), place(row.soles[1]), robot.sole_size, zmp);
+// The foot that a row has alone on the ground.
+std::optional<Side> OnlyFoot(const TrajectoryRow& row) {
+  if (!row.stands[1]) return Side::kLeft;
+  if (!row.stands[0]) return Side::kRight;
+  return std::nullopt;
+}
+
+// Precondition: the dynamics have a ZMP.
+FootLoads LoadsOf(const RobotModel& robot, const TrajectoryRow& row, const WalkState& x,
+                  const RobotDynamics& dynamics) {
+  if (const auto only = OnlyFoot(row)) return FootLoads::OneFoot(*only);
+  const StandingHeights heights(x, std::nullopt);
+  const auto zmp = [&](Side side) { return *dynamics.Zmp(heights.of(side)); };
+  if (!heights.level()) {
+    const auto loads =
+        FootLoads::OnLevels(x, heights, robot.sole_size, {zmp(Side::kLeft), zmp(Side::kRight)});
+    if (loads) return *loads;
+  }
+  return FootLoads::BothFeet(FootPose(x, Side::kLeft), FootPose(x, Side::kRight), robot.sole_size,
+                             zmp(Side::kLeft));
+}
+
+// Of the sole that stands, or halfway between two.
+double HeightOfSupport(const TrajectoryRow& row) {
+  WalkState soles = WalkState::Zero();
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    soles.segment<4>(FootIndex(side)) = Nth(row.soles, Index(side));
+  }
+  return StandingHeights(soles, OnlyFoot(row)).middle();
 }
 
 Eigen::Vector3d Between(double x, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
@@ -50,6 +77,23 @@ PlannedStates::PlannedStates(const RobotModel& robot, const ReferenceMotion& mot
     : motion_(motion) {
   for (size_t i = 0; i < motion_.rows().size(); ++i) {
     whole_.push_back(WholeOf(robot, motion_.rows(), i));
+  }
+  FindLevels();
+}
+
+void PlannedStates::FindLevels() {
+  const std::vector<TrajectoryRow>& rows = motion_.rows();
+  for (size_t s = 0; s < 2; ++s) {
+    double level = 0.0;
+    const auto look = [&](size_t i) {
+      if (rows[i].stands[s]) level = rows[i].soles[s].z();
+      if (std::abs(level) < StandingHeights::kLevel) level = 0.0;
+    };
+    for (size_t i = 0; i < rows.size(); ++i) look(i);  // where it stood last
+    for (size_t i = rows.size(); i-- > 0;) {
+      look(i);
+      whole_[i].levels[s] = level;
+    }
   }
 }
 
@@ -72,7 +116,8 @@ PlannedStates::Whole PlannedStates::WholeOf(const RobotModel& robot,
   const std::optional<Eigen::Vector2d> zmp = dynamics.Zmp();
   if (!zmp) return whole;
   whole.zmp = *zmp;
-  const FootLoads loads = LoadsOf(robot, row, *zmp);
+  whole.tilt = dynamics.Tilt();
+  const FootLoads loads = LoadsOf(robot, row, jet.value, dynamics);
   for (const Side side : {Side::kLeft, Side::kRight}) {
     const auto s = static_cast<size_t>(Index(side));
     const Vector6d on_foot = loads.On(side, dynamics.contact());
@@ -108,7 +153,11 @@ control::PlannedState PlannedStates::At(double t) const {
   }
   state.com = Between(x, a.com, b.com);
   state.com_velocity = Between(x, a.velocity, b.velocity);
+  state.tilt = a.tilt + x * (b.tilt - a.tilt);
   state.zmp = a.zmp + x * (b.zmp - a.zmp);
+  state.levels = x < 1.0 ? a.levels : b.levels;
+  state.zmp_height = HeightOfSupport(row);
+  if (state.zmp_height != 0.0) state.zmp += state.zmp_height * state.tilt;
   state.force = a.force + x * (b.force - a.force);
   return state;
 }

@@ -23,7 +23,9 @@ Replayed PlayOnce(const ReplaySetup& setup, const std::string& method,
   replayed.duration = motion.end();
   replayed.window = setup.play.drift_window;
   replayed.bodies = NamesOf(setup.robot.model.bodies);
+  replayed.bodies.insert(replayed.bodies.end(), {"left sole", "right sole"});
   replayed.obstacles = NamesOf(setup.obstacles);
+  for (const GroundSolid& solid : setup.ground.solids) replayed.obstacles.push_back(solid.name);
   replayed.result = Play(robot, motion, setup.PlayOf(robot, motion));
   CompareMassModel(setup.robot.model, setup.robot.tree, motion, &replayed.result);
   return replayed;

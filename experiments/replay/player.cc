@@ -70,6 +70,12 @@ double Player::EdgeOf(const Eigen::Vector2d& pressure,
   return std::numeric_limits<double>::quiet_NaN();
 }
 
+bool Player::HasDropped(const ReferenceMotion& motion) const {
+  if (std::isinf(options_.fallen_drop)) return false;
+  const Eigen::Vector3d here = robot_.X_WFloor().inverse() * robot_.X_WB().translation();
+  return motion.RowAt(t_).waist[2] - here.z() > options_.fallen_drop;
+}
+
 double Player::DriftFrom(const ReferenceMotion& motion) const {
   const TrajectoryRow planned = motion.RowAt(t_);
   return (robot_.X_WB().translation().head<2>() - planned.waist.head<2>()).norm();
@@ -88,7 +94,7 @@ ReplayRow Player::Advance(const ReferenceMotion& motion, const std::optional<Pus
   const double dt = robot_.timestep();
   const double begin = static_cast<double>(row_) * options_.row_period;
   const long steps = std::lround(options_.row_period / dt);
-  Eigen::Vector2d moment(0, 0), pressure(0, 0);
+  Eigen::Vector2d moment(0, 0), pressure(0, 0), horizontal(0, 0);
   ReplayRow row;
   for (long i = 0; i < steps; ++i) {
     // The targets of where the step ends.
@@ -105,6 +111,7 @@ ReplayRow Player::Advance(const ReferenceMotion& motion, const std::optional<Pus
     for (const Touch& touch : touches) row.touch = std::max(row.touch, touch.force);
     moment += floor.moment;
     pressure += floor.pressure;
+    horizontal += floor.horizontal;
     for (size_t side = 0; side < 2; ++side) row.vertical[side] += floor.vertical[side];
   }
   t_ = static_cast<double>(++row_) * options_.row_period;
@@ -113,12 +120,13 @@ ReplayRow Player::Advance(const ReferenceMotion& motion, const std::optional<Pus
   row.t = t_;
   row.tilt = Acos(std::clamp(X_WB(2, 2), -1.0, 1.0));
   row.waist = X_WB.translation();
-  row.fallen = row.tilt > options_.fallen_tilt;
+  row.fallen = row.tilt > options_.fallen_tilt || HasDropped(motion);
   row.zmp_planned = planned.zmp;
   row.zmp_measured.setConstant(std::numeric_limits<double>::quiet_NaN());
   row.zmp_error = row.zmp_measured;
   const double total = row.vertical[0] + row.vertical[1];
   if (total > 0) {
+    if (planned.zmp_z != 0.0) moment += planned.zmp_z * horizontal;
     row.zmp_measured = moment / total;
     const Side side = row.vertical[0] >= row.vertical[1] ? Side::kLeft : Side::kRight;
     const Eigen::Vector4d& sole = Nth(planned.soles, Index(side));

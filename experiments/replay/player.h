@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 
 #include "experiments/replay/control_loop.h"
@@ -18,6 +19,8 @@ struct PlayOptions {
   double hold = 1.0;          ///< standing in the last row's posture after the walk [s]
   double row_period = 0.005;  ///< what is measured is averaged over it [s]
   double fallen_tilt = 0.7;   ///< the waist leans by more: fallen [rad]
+  /// The waist is lower than planned by more: fallen, as who steps off a surface over nothing [m].
+  double fallen_drop = std::numeric_limits<double>::infinity();
   double drift_window = 2.0;  ///< of SupportDrift::within_window [s]
   double edge = 0.003;        ///< so near to its edge the support is as good as tilting [m]
   /// What moves the robot, of which a player uses a copy; none: the servos get the plan itself.
@@ -39,16 +42,17 @@ struct ReplayRow {
   double t = 0.0;                      ///< [s]
   double tilt = 0.0;                   ///< of the waist from upright [rad]
   Eigen::Vector3d waist{0, 0, 0};      ///< origin of B in W [m]
-  Eigen::Vector2d zmp_planned{0, 0};   ///< in W [m]
-  Eigen::Vector2d zmp_measured{0, 0};  ///< in W [m]; nan in flight
+  Eigen::Vector2d zmp_planned{0, 0};   ///< in W, in the plane z = TrajectoryRow::zmp_z [m]
+  Eigen::Vector2d zmp_measured{0, 0};  ///< in W, in the same plane [m]; nan in flight
   /// Measured less planned ZMP, each seen from the sole that carries more; nan in flight.
   Eigen::Vector2d zmp_error{0, 0};
   std::array<double, 2> vertical{};  ///< force on each sole, by Index(Side) [N]
   /// How far a carrying sole's centre is from where it took up load, the larger of both [m].
   double slip = 0.0;
   double turn = 0.0;  ///< the same of its yaw [rad]
-  /// How far inside the support polygon of the soles that carry the pressure point is [m]; nan: no
-  /// sole carries, whatever was planned.
+  /// How far inside the support polygon of the soles that carry, seen from above, the pressure
+  /// point is [m]; nan: no sole carries, whatever was planned. Soles may stand at different
+  /// heights: where it is 0, only the edge of the soles there is pressed.
   double edge = 0.0;
   std::optional<Side> support;  ///< the sole that carries more of those planned to stand, if any
   /// Of that sole, simulated less planned: x, y in W [m], yaw [rad]; nan: none carries.
@@ -58,7 +62,7 @@ struct ReplayRow {
   double stray = 0.0;
   std::optional<TrackingError> off;  ///< from the plan; none: no sole carries
   double touch = 0.0;   ///< greatest force between a body and an obstacle [N]; 0: none touch
-  bool fallen = false;  ///< tilted beyond fallen_tilt
+  bool fallen = false;  ///< tilted beyond fallen_tilt, or lower than fallen_drop
 };
 
 /// The place of a body on the floor, and its yaw.
@@ -80,7 +84,7 @@ class Player {
   ReplayRow Advance(const ReferenceMotion& motion, const std::optional<Push>& push);
   /// The copy of PlayOptions::control. Precondition: there is one.
   ControlLoop& control() { return *control_; }
-  /// Contacts with obstacles from t = 0 on.
+  /// Contacts with obstacles and with sides of the ground from t = 0 on.
   const std::vector<TouchRecord>& touches() const { return touches_.records(); }
 
  private:
@@ -89,6 +93,7 @@ class Player {
     double slip = 0.0, turn = 0.0;
   };
   Creep CreepOf(Side side, bool carries);
+  bool HasDropped(const ReferenceMotion& motion) const;  // PlayOptions::fallen_drop
   // ReplayRow::edge for the pressure point in W; `vertical` is the force on each sole.
   double EdgeOf(const Eigen::Vector2d& pressure, const std::array<double, 2>& vertical) const;
   double StrayFrom(const TrajectoryRow& planned, const Eigen::Vector3d& shift) const;

@@ -54,6 +54,7 @@ TrajectoryRow ReferenceMotion::RowAt(double t) const {
   TrajectoryRow row = x < 1.0 ? a : b;
   row.t = t;
   row.zmp = a.zmp + x * (b.zmp - a.zmp);
+  row.zmp_z = a.zmp_z + x * (b.zmp_z - a.zmp_z);
   row.waist = a.waist + x * (b.waist - a.waist);
   for (size_t side = 0; side < 2; ++side) {
     row.soles[side] = a.soles[side] + x * (b.soles[side] - a.soles[side]);

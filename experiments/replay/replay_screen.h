@@ -19,7 +19,8 @@ struct Replayed {
   ReplayResult result;            ///< how it went
   std::vector<PushLimit> pushes;  ///< that were survived, where they were asked for
   std::optional<SuggestedTube> tube = std::nullopt;  ///< where it was asked for
-  /// Names of the robot's bodies and of the obstacles, by the indices of TouchRecord; no obstacles:
+  /// Names of the robot's bodies and soles, and of the obstacles and the ground's solids, by the
+  /// indices of TouchRecord; no obstacles and solids:
   /// nothing is said of touches.
   std::vector<std::string> bodies, obstacles;
 };

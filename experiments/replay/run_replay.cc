@@ -11,7 +11,7 @@ std::optional<WalkReplay> PlayWalk(const Experiment& experiment, const std::stri
                                    const std::stop_token& stop) {
   const ReplayConfig& options = experiment.config.replay;
   const ReplaySetup setup = SetupOf(LoadWholeRobot(RobotPath(experiment.config).string()),
-                                    ObstaclesOf(experiment.scene).obstacles, options);
+                                    ObstaclesOf(experiment.scene), options);
   const ReferenceMotion motion(ParseTrajectory("trajectory.csv", trajectory, setup.robot.model));
   const std::vector<SeedReplay> seeds = PlaySeeds(
       setup, motion, options.seeds, [](double) {}, stop);
@@ -38,10 +38,11 @@ WalkReplayer ReplayerOf(const ExperimentConfig& config) {
   return PlayWalk;
 }
 
-ReplaySetup SetupOf(WholeRobot robot, const std::vector<SimulatedObstacle>& obstacles,
+ReplaySetup SetupOf(WholeRobot robot, const SimulatedObstacles& world,
                     const ReplayConfig& options) {
   ReplaySetup setup{.robot = std::move(robot),
-                    .obstacles = obstacles,
+                    .obstacles = world.obstacles,
+                    .ground = world.ground,
                     .model = {},
                     .relief = {},
                     .play = {},

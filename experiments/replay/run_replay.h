@@ -11,7 +11,6 @@ namespace halfstep::replay {
 WalkReplayer ReplayerOf(const ExperimentConfig& config);
 
 /// On what the config's robot is played among these obstacles, by these options.
-ReplaySetup SetupOf(WholeRobot robot, const std::vector<SimulatedObstacle>& obstacles,
-                    const ReplayConfig& options);
+ReplaySetup SetupOf(WholeRobot robot, const SimulatedObstacles& world, const ReplayConfig& options);
 
 }  // namespace halfstep::replay

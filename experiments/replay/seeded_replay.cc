@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 #include "wpg/check.h"
 #include "wpg/nth.h"
 
 namespace halfstep::replay {
 namespace {
+
+constexpr double kFallenDrop = 0.5;  // PlayOptions::fallen_drop on uneven ground, of z_c
 
 Simulation SimulationOf(const ReplaySetup& setup, const ModelOptions& model) {
   const auto& [robot, tree] = setup.robot;
@@ -47,6 +50,7 @@ Simulation ReplaySetup::Robot(const SimulatedFloor& floor, const Disturbance& dr
 
 PlayOptions ReplaySetup::PlayOf(const Simulation& simulated, const ReferenceMotion& motion) const {
   PlayOptions options = play;
+  if (ground.uneven()) options.fallen_drop = kFallenDrop * robot.model.com_height;
   if (measures_tube) options.gauge = std::make_shared<TubeGauge>(robot.model, motion);
   if (!control) return options;
   const std::unique_ptr<control::TrackingController> controller = control->make(
@@ -61,7 +65,9 @@ SeedWorld DrawWorld(int seed, const ReplaySetup& setup, const ReferenceMotion& m
   SeedDraws draws(seed);
   const RobotModel& robot = setup.robot.model;
   const Disturbance disturbance = DrawDisturbance(robot, motion.end(), &draws);
-  return {disturbance, DrawFloor(setup.relief, motion.rows(), robot, &draws)};
+  SimulatedFloor floor = DrawFloor(setup.relief, motion.rows(), robot, &draws);
+  floor.ground = setup.ground;
+  return {disturbance, std::move(floor)};
 }
 
 std::vector<SeedReplay> PlaySeeds(const ReplaySetup& setup, const ReferenceMotion& motion,

@@ -25,12 +25,15 @@ struct ControlSetup {
 struct ReplaySetup {
   WholeRobot robot;                          ///< with all links
   std::vector<SimulatedObstacle> obstacles;  ///< among which it walks
+  SimulatedGround ground;                    ///< on which it walks, but for the relief
   ModelOptions model;                        ///< undisturbed
   FloorRelief relief;                        ///< of the floor, which seeds draw
   PlayOptions play;                     ///< how it is played, but for its `control` and `gauge`
   std::optional<ControlSetup> control;  ///< none: the servos get the plan itself
   bool measures_tube = false;           ///< whether PlayOptions::gauge is set
 
+  /// Whether there is something that bodies of the robot may touch.
+  bool has_touchable() const { return !obstacles.empty() || !ground.solids.empty(); }
   /// The simulated robot, undisturbed. `floor` of ModelOptions is replaced.
   Simulation Robot(const SimulatedFloor& floor) const;
   /// Disturbed.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "experiments/replay/seed_draws.h"
+#include "experiments/replay/simulated_ground.h"
 #include "experiments/tables/trajectory_file.h"
 #include "wpg/robot/robot_model.h"
 
@@ -28,18 +29,19 @@ struct FloorPlate {
   bool at_start = false;   ///< whether the robot stands on it at the start; at most one is
 };
 
-/// A plane with plates on it.
+/// The ground of the scene, turned as a whole, with plates on it.
 struct SimulatedFloor {
-  /// Of W's plane z = 0, on which the walk was planned: z is the simulated plane's normal.
+  /// Of W, in which the walk was planned: z is the normal of what is level there.
   Eigen::Isometry3d X_WFloor = Eigen::Isometry3d::Identity();
-  std::vector<FloorPlate> plates;  ///< on the plane
+  SimulatedGround ground = {};     ///< seen from X_WFloor
+  std::vector<FloorPlate> plates;  ///< on the plane z = 0 of X_WFloor
 };
 
-/// Draws a floor for the walk of these rows. Each place where a sole lands gets a plate of the
-/// sole's size, up to `plates` high and shifted by up to half a sole either way, unless it would be
-/// under a sole that stands at the start. A curb is
-/// under the right side of the way, a tenth of a sole's length in front of these soles. The plane
-/// is turned about the middle of these soles and falls in a drawn direction.
+/// Draws a floor for the walk of these rows; its ground is left the plane. Each place where a sole
+/// lands gets a plate of the sole's size, up to `plates` high and shifted by up to half a sole
+/// either way, unless it would be under a sole that stands at the start. A curb is under the right
+/// side of the way, a tenth of a sole's length in front of these soles. The plane is turned about
+/// the middle of these soles and falls in a drawn direction.
 SimulatedFloor DrawFloor(const FloorRelief& relief, const std::vector<TrajectoryRow>& rows,
                          const RobotModel& robot, SeedDraws* draws);
 

@@ -1,10 +1,12 @@
 #include "experiments/replay/simulated_obstacles.h"
 
+#include <cmath>
 #include <memory>
 #include <stdexcept>
 #include <utility>
 
 #include "planner/ground/flat_floor.h"
+#include "wpg/check.h"
 #include "wpg/files/text.h"
 
 namespace halfstep::replay {
@@ -35,11 +37,17 @@ void Add(const Obstacle& obstacle, PoseOverTime pose, SimulatedObstacles* all) {
   if (body) all->obstacles.push_back({obstacle.name, std::move(*body), std::move(pose)});
 }
 
+SimulatedGround GroundOf(const Ground& ground) {
+  const double floor = ground.Floor();
+  HALFSTEP_CHECK(floor == 0.0 || std::isinf(floor), "a floor at " << floor << " m");
+  return {.floor = floor == 0.0, .solids = ground.Solids()};
+}
+
 }  // namespace
 
 SimulatedObstacles ObstaclesOf(const Scene& scene) {
-  RequireFlatFloor(*scene.ground, "simulation");
   SimulatedObstacles all;
+  all.ground = GroundOf(*scene.ground);
   for (const Obstacle& obstacle : scene.obstacles) {
     const auto pose = [X_WO = obstacle.X_WO, motion = obstacle.motion](double t) {
       return std::optional(motion.PoseAt(X_WO, t));

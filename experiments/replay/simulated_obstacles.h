@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "experiments/live/true_world.h"
+#include "experiments/replay/simulated_ground.h"
 #include "planner/scene/scene.h"
 #include "wpg/geometry/convex_body.h"
 
@@ -20,17 +21,20 @@ struct SimulatedObstacle {
   std::function<std::optional<Eigen::Isometry3d>(double t)> pose;
 };
 
-/// Obstacles as MuJoCo takes them, and in words what it takes otherwise than the scene says.
+/// Obstacles and ground as MuJoCo takes them, and in words what it takes otherwise than the scene
+/// says.
 struct SimulatedObstacles {
   std::vector<SimulatedObstacle> obstacles;  ///< in the order of the scene
   /// One sentence for each mesh: it stands for its convex hull, or is left out since it is flat.
   std::vector<std::string> notes;
+  SimulatedGround ground = {};  ///< what it stands on
 };
 
-/// The obstacles of a scene, which move as the scene says. Here and below: MujocoModel's floor is
-/// the plane z = 0, so the ground is that (std::logic_error).
+/// The obstacles of a scene, which move as the scene says, and its ground. Precondition: its floor,
+/// if it has one, is at z = 0 (std::logic_error).
 SimulatedObstacles ObstaclesOf(const Scene& scene);
 /// The obstacles of an episode, which move and are there as the script says, not as was measured.
+/// Throws InputError where its ground is not the plane z = 0 alone.
 SimulatedObstacles ObstaclesOf(const TrueWorld& truth);
 
 }  // namespace halfstep::replay

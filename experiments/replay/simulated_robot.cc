@@ -40,6 +40,17 @@ void CheckController(const SimulatedRobot& simulated, const RobotModel& robot) {
   }
 }
 
+// Throws InputError.
+FloorRelief ReliefOf(const std::string& text, const SimulatedGround& ground) {
+  const FloorRelief relief = ParseRelief("--floor", text);
+  if (ground.uneven() && (relief.plates != 0.0 || relief.curb != 0.0)) {
+    throw InputError({"--floor " + Quote(text) +
+                      ": plates and curbs are of the flat floor, and the scene's ground has levels "
+                      "(valid: slope=A, which turns all of the ground)"});
+  }
+  return relief;
+}
+
 // What moves the robot in place of the plan. Precondition: IsControlled(simulated).
 ControlSetup ControlOf(const SimulatedRobot& simulated) {
   ControlSetup control{
@@ -53,10 +64,9 @@ ControlSetup ControlOf(const SimulatedRobot& simulated) {
 
 }  // namespace
 
-ReplaySetup SimulatedRobot::SetupOf(WholeRobot whole,
-                                    const std::vector<SimulatedObstacle>& obstacles) const {
-  ReplaySetup setup = replay::SetupOf(std::move(whole), obstacles, robot);
-  if (floor) setup.relief = ParseRelief("--floor", *floor);
+ReplaySetup SimulatedRobot::SetupOf(WholeRobot whole, const SimulatedObstacles& world) const {
+  ReplaySetup setup = replay::SetupOf(std::move(whole), world, robot);
+  if (floor) setup.relief = ReliefOf(*floor, world.ground);
   CheckController(*this, setup.robot.model);
   if (IsControlled(*this)) setup.control = ControlOf(*this);
   return setup;

@@ -22,8 +22,9 @@ struct SimulatedRobot {
   control::Controllers controllers =
       control::Controllers::Standard();  ///< that `controller` may name
 
-  /// The robot among obstacles. Throws InputError for what no robot or controller can do with.
-  ReplaySetup SetupOf(WholeRobot whole, const std::vector<SimulatedObstacle>& obstacles) const;
+  /// The robot in a world. Throws InputError for what no robot or controller can do with, and for a
+  /// floor that uneven ground does not have.
+  ReplaySetup SetupOf(WholeRobot whole, const SimulatedObstacles& world) const;
 };
 
 }  // namespace halfstep::replay

@@ -24,18 +24,23 @@ struct JointTargets {
   std::array<Vector6d, 2> speed;  ///< of the joints [rad/s]
 };
 
-/// What the floor does to the robot during a time step, in W.
+/// What the ground does to the soles that are on it during a time step, in W.
 struct FloorForces {
   std::array<double, 2> vertical{};  ///< on each sole, by Index(Side) [N]
-  Eigen::Vector2d moment{0, 0};    ///< Σ vertical · place [N m]; / Σ vertical: the measured ZMP
+  Eigen::Vector2d horizontal{0, 0};  ///< Σ of the forces along the floor [N]
+  /// Σ vertical · place − height · horizontal [N m]; / Σ vertical: the measured ZMP, in the plane
+  /// z = 0. That in the plane z = h is h Σ horizontal / Σ vertical aside of it.
+  Eigen::Vector2d moment{0, 0};
   Eigen::Vector2d pressure{0, 0};  ///< the same, places seen from above whatever their height
   double total() const { return vertical[0] + vertical[1]; }  ///< of both soles [N]
 };
 
 /// A body of the robot and an obstacle in contact.
 struct Touch {
-  int body = 0;        ///< index of RobotModel::bodies
-  int obstacle = 0;    ///< index of the obstacles
+  /// Index of RobotModel::bodies; beyond these the left and the right sole, whose side is against a
+  /// solid of the ground.
+  int body = 0;
+  int obstacle = 0;    ///< index of the obstacles; beyond these that of the ground's solids
   double force = 0.0;  ///< of all their contact points together [N]
 };
 
@@ -68,7 +73,8 @@ class Simulation {
   double timestep() const;  ///< [s]
   /// The weight of the model [N].
   double weight() const;
-  /// The model's floor (SimulatedFloor); where the robot begins on a plate, that plate's height.
+  /// The model's floor (SimulatedFloor::X_WFloor); where the robot begins on a plate, that plate's
+  /// height.
   Eigen::Isometry3d X_WFloor() const;
   /// Length and width of a sole [m].
   Eigen::Vector2d sole_size() const;
@@ -87,7 +93,8 @@ class Simulation {
   RobotForces Needed(const RobotMotion& motion);
   /// Puts the obstacles where they are at the time t of the walk [s].
   void MoveObstacles(double t);
-  /// The robot's contacts with obstacles in the last time step, one for each pair of bodies.
+  /// The robot's contacts with obstacles, and with the ground but for what soles stand on, in the
+  /// last time step, one for each pair of bodies.
   std::vector<Touch> touches() const;
 
   Eigen::Isometry3d X_WB() const;  ///< pose of the waist

@@ -8,8 +8,8 @@ namespace halfstep::replay {
 
 /// A body of the robot in touch with an obstacle, never apart for longer than 50 ms.
 struct TouchRecord {
-  int body = 0;          ///< index of RobotModel::bodies
-  int obstacle = 0;      ///< index of the simulated obstacles
+  int body = 0;          ///< Touch::body
+  int obstacle = 0;      ///< Touch::obstacle
   double begin = 0.0;    ///< first instant of contact [s]
   double end = 0.0;      ///< last instant of contact [s]
   double force = 0.0;    ///< greatest [N]

@@ -24,7 +24,8 @@ struct TubeSample {
 /// Measures how far a robot is from its plan, which begins where the robot stands.
 class TubeGauge {
  public:
-  /// Borrows nothing. Of a robot whose masses are not known the ZMP is not measured.
+  /// Borrows nothing. Precondition: soles stand at z = 0. Of a robot whose masses are not known the
+  /// ZMP is not measured.
   TubeGauge(const RobotModel& robot, const ReferenceMotion& motion);
 
   bool has_zmp() const { return whole_.has_value(); }  ///< whether the ZMP is measured

@@ -8,7 +8,9 @@
 #include "wpg/files/input_error.h"
 #include "wpg/files/text.h"
 #include "wpg/geometry/rotation.h"
+#include "wpg/motion/standing_heights.h"
 #include "wpg/nth.h"
+#include "wpg/robot/gravity.h"
 
 namespace halfstep {
 namespace {
@@ -36,6 +38,13 @@ void ReadPlace(const CsvTable& table, const std::string& name, const Member& mem
       member(&(*rows)[i])[static_cast<Eigen::Index>(k)] = numbers[i];
     }
   }
+}
+
+bool StandsAtZero(const TrajectoryRow& row) {
+  for (size_t side = 0; side < 2; ++side) {
+    if (row.stands[side] && std::abs(row.soles[side].z()) > StandingHeights::kLevel) return false;
+  }
+  return true;
 }
 
 std::vector<TrajectoryRow> Rows(const CsvTable& table, const RobotModel& robot) {
@@ -66,10 +75,25 @@ std::vector<TrajectoryRow> Rows(const CsvTable& table, const RobotModel& robot) 
       }
     }
   }
+  FindZmpPlanes(robot, &rows);
   return rows;
 }
 
 }  // namespace
+
+void FindZmpPlanes(const RobotModel& robot, std::vector<TrajectoryRow>* rows) {
+  if (std::ranges::all_of(*rows, StandsAtZero)) return;
+  std::vector<TrajectoryRow>& all = *rows;
+  for (size_t i = 0; i < all.size(); ++i) {
+    all[i].zmp_z = all[i].waist.z() - robot.waist_height;
+    if (i == 0 || i + 1 == all.size()) continue;
+    const double before = all[i].t - all[i - 1].t, after = all[i + 1].t - all[i].t;
+    const double second = 2.0 / (before + after) *
+                          ((all[i + 1].waist.z() - all[i].waist.z()) / after -
+                           (all[i].waist.z() - all[i - 1].waist.z()) / before);
+    all[i].zmp_z -= robot.com_height / kGravity * second;
+  }
+}
 
 Eigen::Isometry3d TrajectoryRow::Upright(const Eigen::Vector4d& place) {
   Eigen::Isometry3d X = Eigen::Isometry3d::Identity();

@@ -60,9 +60,15 @@ class PlannedInstant(NamedTuple):
     com_velocity: np.ndarray
     """(3) [m/s]"""
     zmp: np.ndarray
-    """ZMP of the whole robot in W (2) [m]."""
+    """ZMP of the whole robot in W, in the plane z = zmp_height (2) [m]."""
     force: float
     """That the floor gives, along z [N]."""
+    zmp_height: float
+    """Of the sole that stands, or halfway between two, in W [m]."""
+    tilt: np.ndarray
+    """How far the ZMP goes aside for each metre of that plane's height (2)."""
+    levels: tuple[float, float]
+    """Where each sole stands or will stand next: z in W [m]."""
 
 
 class Replay:
