@@ -56,6 +56,7 @@ void Tally::Add(const Tally& other) {
   violated += other.violated;
   undecided += other.undecided;
   judged += other.judged;
+  idle += other.walks == 1 ? other.judged == 0 : other.idle;
   false_certified += other.false_certified;
   false_violated += other.false_violated;
   instants += other.instants;
@@ -143,8 +144,10 @@ void Judge::Compare(const Case& drawn, WalkTruth* truth, Tally* tally) const {
       const std::string name(Name(family));
       const TrueMargin margin = truth->At(name, t, "");
       const double theirs = margins[static_cast<size_t>(family)].value;
-      const bool in_metres =
-          IsDistance(family) || family == MarginFamily::kGround || family == MarginFamily::kNoStep;
+      const bool to_solids = family == MarginFamily::kFloor || family == MarginFamily::kFoothold;
+      const bool in_metres = IsDistance(family) || family == MarginFamily::kGround ||
+                             family == MarginFamily::kNoStep ||
+                             (to_solids && drawn.plain_scene.has_levels());
       if (!std::isfinite(theirs) && theirs == margin.value) continue;
       // Overlaps are told by their sign alone, and what is far away is not told apart.
       if (in_metres && !(theirs > 0 && theirs < kNear)) continue;
@@ -204,7 +207,8 @@ void Judge::Push(const Case& drawn, MarginFamily family, WalkTruth* truth, Tally
   }
 }
 
-// Takes obstacles out of the planned way, and makes the plan calmer, until it is certified.
+// Takes obstacles out of the planned way, and makes the plan calmer and levels lower, until it is
+// certified.
 bool Judge::FindFeasible(const std::string& folder, Case* drawn, Tally* tally) const {
   const ClosedFormWalk walk(drawn->plan);
   const Eigen::Vector4d middle = walk.At(Real(0.5 * walk.duration())).value.feet[0];
@@ -218,22 +222,28 @@ bool Judge::FindFeasible(const std::string& folder, Case* drawn, Tally* tally) c
       ++tally->refused;
       return false;
     }
-    drawn->placed =
-        std::make_unique<PlacedScene>(drawn->plain_scene, Eigen::Vector3d(middle[0], middle[1], 0));
+    drawn->placed = std::make_unique<PlacedScene>(Seen(drawn->plain_scene),
+                                                  Eigen::Vector3d(middle[0], middle[1], 0));
     drawn->Overlap(overlaps, 0);
     const Feasibility answer = Ask(*drawn, drawn->limits, {});
     Count(answer, tally);
     if (answer.verdict == Verdict::kFeasible) break;
     const Margin& witness = answer.witness;
     const bool by_another = answer.verdict == Verdict::kViolated && witness.other >= 0;
-    if (by_another && witness.family == MarginFamily::kClearance) {
-      auto& obstacles = drawn->plain_scene.obstacles;
+    auto& obstacles = drawn->plain_scene.obstacles;
+    // Solids of the ground come after the obstacles.
+    if (by_another && witness.family == MarginFamily::kClearance &&
+        witness.other < static_cast<int>(obstacles.size())) {
       obstacles.erase(obstacles.begin() + witness.other);
     } else if (by_another && witness.family == MarginFamily::kNoStep) {
       auto& areas = drawn->plain_scene.no_step;
       areas.erase(areas.begin() + witness.other);
     } else if (++calmed <= 5) {
-      Calm(&drawn->plan);
+      if (drawn->plain_scene.has_levels()) {
+        CalmOverLevels(&drawn->plan, &drawn->plain_scene);
+      } else {
+        Calm(&drawn->plan);
+      }
     } else {
       return false;
     }
@@ -256,9 +266,8 @@ void Judge::RaiseOverlaps(Case* drawn, Tally* tally) const {
     (answer.verdict == Verdict::kFeasible ? low : high) = share;
     if (low == 1) break;
     if (answer.verdict == Verdict::kViolated && high - low < 0.05) {
-      const ClosedFormWalk walk(drawn->plan);
-      WalkTruth truth(plain_, walk, *drawn->placed, drawn->plain_scene.no_step,
-                      ToDemands(drawn->limits, drawn->plain_scene.friction));
+      const ClosedFormWalk walk(Seen(drawn->plan));
+      WalkTruth truth(plain_, walk, *drawn->placed, drawn->plain_scene.no_step, Seen(*drawn));
       JudgeViolated(*drawn, drawn->limits, answer.witness, &truth, tally);
     }
   }
@@ -273,8 +282,12 @@ Tally Judge::JudgeOne(SceneKind kind, unsigned seed, const std::string& folder,
   Case drawn;
   drawn.name = robot_.name + ", " + NameOf(kind) + ", seed " + std::to_string(seed);
   drawn.falsehoods = falsehoods;
-  drawn.plan = DrawPlan(plain_, &draw);
-  drawn.plain_scene = DrawNastyScene(kind, drawn.plan, plain_.size(), &draw);
+  if (IsOverLevels(kind)) {
+    DrawLevels(kind, plain_, &draw, &drawn.plan, &drawn.plain_scene);
+  } else {
+    drawn.plan = DrawPlan(plain_, &draw);
+    drawn.plain_scene = DrawNastyScene(kind, drawn.plan, plain_.size(), &draw);
+  }
   drawn.limits.clearance_cap = 0.05;
   if (draw.Chance(0.5)) {
     drawn.limits.demanded_of(MarginFamily::kClearance) = draw.Uniform(0, 0.02);
@@ -298,11 +311,11 @@ Tally Judge::JudgeOne(SceneKind kind, unsigned seed, const std::string& folder,
         0.08 * std::sqrt(plain_.size()) * further.Uniform(0, 1);
     drawn.limits.landing_speed = further.Uniform(0.2, 1);
   }
+  if (IsOverLevels(kind)) LimitOverLevels(&further, &drawn);
   if (!FindFeasible(folder, &drawn, &tally)) return tally;
   RaiseOverlaps(&drawn, &tally);
-  const ClosedFormWalk walk(drawn.plan);
-  WalkTruth truth(plain_, walk, *drawn.placed, drawn.plain_scene.no_step,
-                  ToDemands(drawn.limits, drawn.plain_scene.friction));
+  const ClosedFormWalk walk(Seen(drawn.plan));
+  WalkTruth truth(plain_, walk, *drawn.placed, drawn.plain_scene.no_step, Seen(drawn));
   JudgeCertified(drawn, drawn.limits, truth.Least(), truth, &tally);
   Compare(drawn, &truth, &tally);
   // The families that came last, one more, and often clearance.
@@ -311,8 +324,10 @@ Tally Judge::JudgeOne(SceneKind kind, unsigned seed, const std::string& folder,
       MarginFamily::kJointAcceleration, MarginFamily::kDoubleSupport, MarginFamily::kLandingSpeed};
   pushed.push_back(static_cast<MarginFamily>(draw.Below(static_cast<int>(MarginFamily::kOwn))));
   if (draw.Chance(0.6)) pushed.push_back(MarginFamily::kClearance);
+  const bool levels = drawn.plain_scene.has_levels();
+  if (levels) pushed.insert(pushed.end(), {MarginFamily::kFloor, MarginFamily::kFoothold});
   for (const MarginFamily family : pushed) Push(drawn, family, &truth, &tally);
-  PushTubes(drawn, &truth, &further, &tally);
+  if (!levels) PushTubes(drawn, &truth, &further, &tally);  // over levels they are refused
   tally.instants += truth.instants();
   return tally;
 }
