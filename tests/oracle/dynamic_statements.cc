@@ -31,13 +31,15 @@ std::array<Eigen::Vector3d, 2> WalkTruth::FloorOn(size_t foot, Instant& at,
     return {Eigen::Vector3d::Constant(kNever), Eigen::Vector3d::Constant(kNever)};
   }
   const double lambda = left / (left + right), share = foot == 1 ? lambda : 1 - lambda;
-  // Each foot's own ZMP is as far from its centre.
+  // Each foot's own ZMP is as far from its centre; yaw moments are shared in proportion.
   Eigen::Vector3d at_foot = feet[foot].head<3>();
   at_foot.head<2>() += (1 - lambda) * (p[0] - feet[0].head<2>()) +
                        lambda * (p[1] - feet[1].head<2>());
   if (level) at_foot.z() = 0;
   at_foot.head<2>() -= dynamics.zmp_in_world();
-  return {share * dynamics.force, share * (moment + at_foot.cross(dynamics.force))};
+  Eigen::Vector3d turns = at_foot.cross(dynamics.force);
+  turns.z() = dynamics.yaw_moment;
+  return {share * dynamics.force, share * turns};
 }
 
 // Corners of the soles that stand, along the force onto a plane: seen from where the line of the

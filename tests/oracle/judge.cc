@@ -37,34 +37,6 @@ std::string Line(const char* what, const std::string& of, double value, double d
 
 }  // namespace
 
-void FamilyTally::Add(const FamilyTally& other) {
-  statements += other.statements;
-  pushed += other.pushed;
-  falsified += other.falsified;
-  found += other.found;
-  least_spare = std::min(least_spare, other.least_spare);
-  if (other.disagreement > disagreement) {
-    disagreement = other.disagreement;
-    where = other.where;
-  }
-}
-
-void Tally::Add(const Tally& other) {
-  walks += other.walks;
-  refused += other.refused;
-  certified += other.certified;
-  violated += other.violated;
-  undecided += other.undecided;
-  judged += other.judged;
-  idle += other.walks == 1 ? other.judged == 0 : other.idle;
-  false_certified += other.false_certified;
-  false_violated += other.false_violated;
-  instants += other.instants;
-  for (const auto& [name, family] : other.families) families[name].Add(family);
-  for (const auto& [name, family] : other.tubes) tubes[name].Add(family);
-  missed.insert(missed.end(), other.missed.begin(), other.missed.end());
-}
-
 Judge::Judge(const std::string& robot_yaml, const std::string& plain_yaml, double tolerance)
     : plain_(plain_yaml), robot_(LoadRobot(robot_yaml)), tolerance_(tolerance) {
   // Where a robot's file states none.
@@ -240,7 +212,7 @@ bool Judge::FindFeasible(const std::string& folder, Case* drawn, Tally* tally) c
       areas.erase(areas.begin() + witness.other);
     } else if (++calmed <= 5) {
       if (drawn->plain_scene.has_levels()) {
-        CalmOverLevels(&drawn->plan, &drawn->plain_scene);
+        CalmOverLevels(plain_, &drawn->plan, &drawn->plain_scene);
       } else {
         Calm(&drawn->plan);
       }
@@ -274,11 +246,10 @@ void Judge::RaiseOverlaps(Case* drawn, Tally* tally) const {
   drawn->Overlap(overlaps, low);
 }
 
-Tally Judge::JudgeOne(SceneKind kind, unsigned seed, const std::string& folder,
-                      std::vector<std::string>* falsehoods) const {
-  Draw draw(seed);
-  Tally tally;
-  tally.walks = 1;
+// Draws a walk, its scene and what is demanded of it.
+Judge::Case Judge::DrawCase(SceneKind kind, unsigned seed, Draw* draw_from, Draw* further_from,
+                            std::vector<std::string>* falsehoods) const {
+  Draw &draw = *draw_from, &further = *further_from;
   Case drawn;
   drawn.name = robot_.name + ", " + NameOf(kind) + ", seed " + std::to_string(seed);
   drawn.falsehoods = falsehoods;
@@ -302,7 +273,6 @@ Tally Judge::JudgeOne(SceneKind kind, unsigned seed, const std::string& folder,
   drawn.limits.demanded_of(MarginFamily::kDoubleSupport) = 0.0;
   drawn.limits.landing_speed = drawn.limits.foot_speed;
   // One in three is demanded what the profile walkable demands, or less of it.
-  Draw further(seed ^ 0x5bd1e995u);
   if (further.Chance(0.33)) {
     drawn.limits.demanded_of(MarginFamily::kZmpRobot) =
         plain_.sole_size.y() * further.Uniform(0, 0.2);
@@ -312,6 +282,15 @@ Tally Judge::JudgeOne(SceneKind kind, unsigned seed, const std::string& folder,
     drawn.limits.landing_speed = further.Uniform(0.2, 1);
   }
   if (IsOverLevels(kind)) LimitOverLevels(&further, &drawn);
+  return drawn;
+}
+
+Tally Judge::JudgeOne(SceneKind kind, unsigned seed, const std::string& folder,
+                      std::vector<std::string>* falsehoods) const {
+  Draw draw(seed), further(seed ^ 0x5bd1e995u);
+  Tally tally;
+  tally.walks = 1;
+  Case drawn = DrawCase(kind, seed, &draw, &further, falsehoods);
   if (!FindFeasible(folder, &drawn, &tally)) return tally;
   RaiseOverlaps(&drawn, &tally);
   const ClosedFormWalk walk(Seen(drawn.plan));

@@ -31,6 +31,23 @@ void Judge::LimitOverLevels(Draw* draw, Case* drawn) const {
   limits.demanded_of(MarginFamily::kClearance) = 0.005 * size * draw->Uniform(0.1, 1);
 }
 
+Tally Judge::JudgeFamily(MarginFamily family, SceneKind kind, unsigned seed,
+                         const std::string& folder, std::vector<std::string>* falsehoods) const {
+  Draw draw(seed), further(seed ^ 0x5bd1e995u);
+  Tally tally;
+  tally.walks = 1;
+  Case drawn = DrawCase(kind, seed, &draw, &further, falsehoods);
+  if (!FindFeasible(folder, &drawn, &tally)) return tally;
+  drawn.Overlap(std::vector<double>(drawn.plan.overlaps), 0);
+  const ClosedFormWalk walk(Seen(drawn.plan));
+  WalkTruth truth(plain_, walk, *drawn.placed, drawn.plain_scene.no_step, Seen(drawn));
+  const std::string name(Name(family));
+  JudgeCertified(drawn, drawn.limits, truth.Least(name), truth, &tally);
+  Push(drawn, family, &truth, &tally);
+  tally.instants += truth.instants();
+  return tally;
+}
+
 WalkPlan Judge::Seen(const WalkPlan& plan) const {
   WalkPlan seen = plan;
   if (mistake_ != OracleMistake::kWaistLater) return seen;

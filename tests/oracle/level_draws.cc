@@ -22,6 +22,14 @@ struct SoleReach {
   }
 };
 
+// Soles that are long beside the legs take longer steps from tread to tread, for which the waist has
+// to be lower: a length that is 1 m for HRP-2 [m].
+double Crouches(const PlainRobot& robot) {
+  const SoleReach reach(robot);
+  const double longer = (reach.front + reach.back) / (0.22 * robot.size());
+  return robot.size() * longer * longer;
+}
+
 FloorPose Beside(const FloorPose& s, double x, double y, double yaw) {
   const double c = std::cos(s.yaw), sn = std::sin(s.yaw);
   return {s.x + c * x - sn * y, s.y + sn * x + c * y, s.yaw + yaw, 0};
@@ -129,13 +137,13 @@ void WalkOverRows(SceneKind kind, const PlainRobot& robot, Draw* draw, WalkPlan*
   const FloorPose origin = Middle(*plan);
   std::vector<Row> rows(plan->steps.size() + 1 + static_cast<size_t>(draw->Below(2)));
   const auto heights = HeightsOf(kind, rows.size(), size, draw);
-  const double run = length * draw->Uniform(1.12, 1.4) + 2 * foothold;
+  const double run = length * draw->Uniform(1.03, 1.25) + 2 * foothold + 0.004 * size;
   double end = reach.front + foothold + size * draw->Uniform(0.0005, 0.03);
   for (size_t k = 0; k < rows.size(); ++k) {
     rows[k].height = heights[k];
     rows[k].begin = k == 0 ? -size * draw->Uniform(0.4, 1) : end;
     if (k > 0) {
-      end += kind == SceneKind::kStairs ? run : run * draw->Uniform(0.97, 1.1);
+      end += kind == SceneKind::kStairs ? run : run * draw->Uniform(1, 1.1);
       if (k + 1 == rows.size() && kind != SceneKind::kStairs) end += size * draw->Uniform(0, 0.5);
     }
     rows[k].end = end;
@@ -145,7 +153,7 @@ void WalkOverRows(SceneKind kind, const PlainRobot& robot, Draw* draw, WalkPlan*
   for (size_t j = 0; j < plan->steps.size(); ++j) {
     const auto foot = static_cast<size_t>(plan->steps[j].foot);
     if (!both || j % 2 == 0) ++row;
-    const double yaw = draw->Uniform(-0.1, 0.1);
+    const double yaw = (foot == 0 ? 1 : -1) * draw->Uniform(-0.03, 0.16);  // outwards most often
     const double margin =
         foothold + size * draw->Logarithmic(2e-4, 0.01) + reach.aside * std::abs(std::sin(yaw));
     const double low = rows[row].begin + reach.back + margin;
@@ -155,7 +163,7 @@ void WalkOverRows(SceneKind kind, const PlainRobot& robot, Draw* draw, WalkPlan*
     if (row + 1 < rows.size() && rows[row + 1].height[foot] == rows[row].height[foot]) {
       high = rows[row].end + 0.2 * length;
     }
-    const double x = draw->Chance(0.2) ? low : draw->Uniform(low, std::max(low, high));
+    const double x = draw->Chance(0.4) ? low : draw->Uniform(low, std::max(low, high));
     const double y = 0.5 * robot.standing_width + size * draw->Uniform(-0.004, 0.03);
     plan->steps[j].landing = Beside(origin, x, foot == 0 ? y : -y, yaw);
   }
@@ -218,7 +226,7 @@ void FollowGround(const PlainScene& scene, WalkPlan* plan) {
   }
 }
 
-void DrawForms(double size, Draw* draw, WalkPlan* plan) {
+void DrawForms(const PlainRobot& robot, Draw* draw, WalkPlan* plan) {
   const size_t n = plan->durations.size();
   for (double& T : plan->durations) T = draw->Uniform(1.6, 2.6);
   for (size_t i = 0; i + 1 < n; ++i) {  // rests stay
@@ -228,7 +236,7 @@ void DrawForms(double size, Draw* draw, WalkPlan* plan) {
   plan->foot_delay = draw->Uniform(0.08, 0.2);
   for (double& delay : plan->foot_delays) delay = draw->Uniform(0.08, 0.2);
   for (FloorPose& move : plan->footsteps) move = {0.2 * move.x, 0.2 * move.y, 0.2 * move.yaw, 0};
-  if (draw->Chance(0.5)) plan->crouch = size * draw->Uniform(0, 0.03);
+  if (draw->Chance(0.5)) plan->crouch = Crouches(robot) * draw->Uniform(0, 0.03);
   if (draw->Chance(0.3)) return;
   const bool any = draw->Chance(0.2);
   for (size_t i = 0; i < n; ++i) {
@@ -243,7 +251,7 @@ void DrawLevels(SceneKind kind, const PlainRobot& robot, Draw* draw, WalkPlan* p
                 PlainScene* scene) {
   *plan = DrawPlan(robot, draw);
   const double size = robot.size();
-  DrawForms(size, draw, plan);
+  DrawForms(robot, draw, plan);
   scene->friction = draw->Uniform(0.3, 1);
   scene->has_floor = draw->Chance(kind == SceneKind::kStones ? 0.4 : 0.6);
   if (kind == SceneKind::kStones) {
@@ -281,12 +289,16 @@ void DrawLevels(SceneKind kind, const PlainRobot& robot, Draw* draw, WalkPlan* p
   if (draw->Chance(0.2)) scene->no_step.push_back(DrawArea(walk, size, draw));
 }
 
-void CalmOverLevels(WalkPlan* plan, PlainScene* scene) {
+void CalmOverLevels(const PlainRobot& robot, WalkPlan* plan, PlainScene* scene) {
   Calm(plan);
+  plan->crouch += 0.015 * Crouches(robot);
+  for (PlannedStep& step : plan->steps) {
+    step.via_height *= 0.9;  // rises become less
+  }
   for (PlainSurface& surface : scene->surfaces) {
-    surface.height *= 0.8;
-    surface.rise *= 0.8;
-    surface.at.z() *= 0.8;
+    surface.height *= 0.75;
+    surface.rise *= 0.75;
+    surface.at.z() *= 0.75;
   }
   FollowGround(*scene, plan);
 }

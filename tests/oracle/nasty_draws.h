@@ -70,8 +70,8 @@ double NaturalBound(const WalkPlan& plan, size_t junction);
 /// (1: rises to 15 cm). With obstacles, areas, or things that move, in half of the draws.
 void DrawLevels(SceneKind kind, const PlainRobot& robot, Draw* draw, WalkPlan* plan,
                 PlainScene* scene);
-/// Calm, and all heights of the ground a fifth less.
-void CalmOverLevels(WalkPlan* plan, PlainScene* scene);
+/// Calm, the waist a little lower, all heights of the ground a quarter less.
+void CalmOverLevels(const PlainRobot& robot, WalkPlan* plan, PlainScene* scene);
 
 /// `size` of the robot: PlainRobot::size.
 PlainScene DrawNastyScene(SceneKind kind, const WalkPlan& plan, double size, Draw* draw);

@@ -1,4 +1,6 @@
-// Tallies of single walks as lines of a file, so that a study goes on where it stopped.
+// What came out for walks, added up, and in lines of a file, so that a study goes on where it
+// stopped.
+#include <algorithm>
 #include <cstdio>
 #include <sstream>
 
@@ -15,6 +17,34 @@ std::string FamilyWords(const std::string& what, const std::string& name, const 
 }
 
 }  // namespace
+
+void FamilyTally::Add(const FamilyTally& other) {
+  statements += other.statements;
+  pushed += other.pushed;
+  falsified += other.falsified;
+  found += other.found;
+  least_spare = std::min(least_spare, other.least_spare);
+  if (other.disagreement > disagreement) {
+    disagreement = other.disagreement;
+    where = other.where;
+  }
+}
+
+void Tally::Add(const Tally& other) {
+  walks += other.walks;
+  refused += other.refused;
+  certified += other.certified;
+  violated += other.violated;
+  undecided += other.undecided;
+  judged += other.judged;
+  idle += other.walks == 1 ? other.judged == 0 : other.idle;
+  false_certified += other.false_certified;
+  false_violated += other.false_violated;
+  instants += other.instants;
+  for (const auto& [name, family] : other.families) families[name].Add(family);
+  for (const auto& [name, family] : other.tubes) tubes[name].Add(family);
+  missed.insert(missed.end(), other.missed.begin(), other.missed.end());
+}
 
 std::string ToLine(const Tally& t) {
   char text[300];
