@@ -106,13 +106,14 @@ void Judge::JudgeViolated(const Case& drawn, const MarginLimits& limits, const M
 }
 
 // What both sides say at the middle of each stretch.
-void Judge::Compare(const Case& drawn, WalkTruth* truth, Tally* tally) const {
+void Judge::Compare(const Case& drawn, std::span<const MarginFamily> families, WalkTruth* truth,
+                    Tally* tally) const {
   const SuperposedWalk walk(ToSequence(drawn.plan), ToParameters(drawn.plan));
   MarginEvaluator::Scratch scratch = drawn.evaluator->MakeScratch();
   for (const Stretch& stretch : truth->walk().stretches()) {
     const double t = 0.5 * (stretch.begin + stretch.end);
     const MarginSet margins = drawn.evaluator->At(walk, walk.Locate(t), &scratch);
-    for (const MarginFamily family : drawn.evaluator->families()) {
+    for (const MarginFamily family : families) {
       const std::string name(Name(family));
       const TrueMargin margin = truth->At(name, t, "");
       const double theirs = margins[static_cast<size_t>(family)].value;
@@ -296,7 +297,7 @@ Tally Judge::JudgeOne(SceneKind kind, unsigned seed, const std::string& folder,
   const ClosedFormWalk walk(Seen(drawn.plan));
   WalkTruth truth(plain_, walk, *drawn.placed, drawn.plain_scene.no_step, Seen(drawn));
   JudgeCertified(drawn, drawn.limits, truth.Least(), truth, &tally);
-  Compare(drawn, &truth, &tally);
+  Compare(drawn, drawn.evaluator->families(), &truth, &tally);
   // The families that came last, one more, and often clearance.
   std::vector<MarginFamily> pushed = {
       MarginFamily::kZmpRobot,          MarginFamily::kTorque,        MarginFamily::kFriction,

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -85,7 +86,7 @@ class Judge {
   Tally JudgeOne(SceneKind kind, unsigned seed, const std::string& folder,
                  std::vector<std::string>* falsehoods) const;
 
-  /// The same of one family alone, without overlaps: pushed to its limit. Quicker.
+  /// The same of the walk's first step and one family alone, without overlaps. Quicker.
   Tally JudgeFamily(MarginFamily family, SceneKind kind, unsigned seed, const std::string& folder,
                     std::vector<std::string>* falsehoods) const;
 
@@ -103,7 +104,8 @@ class Judge {
                       Tally* tally) const;
   void JudgeViolated(const Case& drawn, const MarginLimits& limits, const Margin& witness,
                      WalkTruth* truth, Tally* tally) const;
-  void Compare(const Case& drawn, WalkTruth* truth, Tally* tally) const;
+  void Compare(const Case& drawn, std::span<const MarginFamily> families, WalkTruth* truth,
+               Tally* tally) const;
   Feasibility Ask(const Case& drawn, const MarginLimits& limits,
                   std::optional<MarginFamily> only) const;
   void Count(const Feasibility& answer, Tally* tally) const;
