@@ -69,8 +69,7 @@ std::optional<Foothold> DrawFoothold(const Scene& scene, const RobotModel& robot
   if (draw->Index(4) > 0) {
     const double s = draw->Uniform(0, 1);
     const Eigen::Index k = draw->Index(static_cast<int>(polygon.cols()));
-    const Eigen::Vector2d p =
-        (1 - s) * polygon.col(k) + s * polygon.col((k + 1) % polygon.cols());
+    const Eigen::Vector2d p = (1 - s) * polygon.col(k) + s * polygon.col((k + 1) % polygon.cols());
     const double way = draw->Uniform(-3.2, 3.2), off = size * draw->Uniform(0.05, 0.3);
     at.x = p.x() + off * std::cos(way);
     at.y = p.y() + off * std::sin(way);
@@ -100,15 +99,14 @@ int main(int argc, char** argv) {
   const RobotModel robot = ShippedRobot(name);
   const double size = LegScale(robot), rise = std::round(50 * size) * 1e-3;
   const auto scaled = [&](double length) { return ShortestText(length * size); };
-  const ExperimentConfig config =
-      LoadConfig(HALFSTEP_SOURCE_DIR "/experiments/configs/island.yaml",
-                 {{"robot", name},
-                  {"half_step.via_height_m", scaled(0.22)},
-                  {"half_step.foot_delay", "0.16"},
-                  {"half_step.duration_s", "2.4"},
-                  {"half_step.crouch_m", scaled(0.01)},
-                  {"step_set.spacing_m", scaled(0.09)},
-                  {"step_set.yaws_rad", "[0]"}});
+  const ExperimentConfig config = LoadConfig(HALFSTEP_SOURCE_DIR "/experiments/configs/island.yaml",
+                                             {{"robot", name},
+                                              {"half_step.via_height_m", scaled(0.22)},
+                                              {"half_step.foot_delay", "0.16"},
+                                              {"half_step.duration_s", "2.4"},
+                                              {"half_step.crouch_m", scaled(0.01)},
+                                              {"step_set.spacing_m", scaled(0.09)},
+                                              {"step_set.yaws_rad", "[0]"}});
   const Scene first = DrawBlocks(rise, size, &draw);
   const BakedHalfSteps baked = BakeHalfSteps(robot, config, *first.ground, {});
   const SweptVolumes& volumes = *baked.cached.volumes;

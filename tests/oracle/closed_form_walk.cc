@@ -43,8 +43,8 @@ ClosedFormWalk::ClosedFormWalk(const WalkPlan& plan) {
     const FloorPose &l = feet[0], &r = feet[1];
     const Real x = (Real(l.x) + r.x) / 2, y = (Real(l.y) + r.y) / 2;
     const Real waist = Real(std::min(l.z, r.z)) - Real(plan.crouch);
-    return Quantities{x,   y,   x,   y,     (Real(l.yaw) + r.yaw) / 2, l.x, l.y, l.z, l.yaw,
-                      r.x, r.y, r.z, r.yaw, waist};
+    return Quantities{x,   y,   x,     y,    (Real(l.yaw) + r.yaw) / 2, l.x, l.y, l.z, l.yaw, r.x,
+                      r.y, r.z, r.yaw, waist};
   };
   Real begin = 0;
   for (size_t i = 0; i < 2 * plan.steps.size(); ++i) {
@@ -104,13 +104,16 @@ void ClosedFormWalk::Fractionize(const HalfStep& h, Real tau, Jet* jet) const {
   const Real foot = (sigma - foot_begin) / foot_window;
   const Real height = (sigma - height_begin) / height_window;
   const Real rise_window = h.rise_end - h.rise_begin, rise = (sigma - h.rise_begin) / rise_window;
-  (*jet)[0] = {pair.c,         pair.p, Smooth(sigma), Ramped(foot, h.ramp),
-               Smooth(height), Smooth(rise)};
-  (*jet)[1] = {pair.c_rate / h.T, pair.p_rate / h.T, SmoothSlope(sigma) / h.T,
+  (*jet)[0] = {pair.c, pair.p, Smooth(sigma), Ramped(foot, h.ramp), Smooth(height), Smooth(rise)};
+  (*jet)[1] = {pair.c_rate / h.T,
+               pair.p_rate / h.T,
+               SmoothSlope(sigma) / h.T,
                RampedSlope(foot, h.ramp) / (h.T * foot_window),
                SmoothSlope(height) / (h.T * height_window),
                SmoothSlope(rise) / (h.T * rise_window)};
-  (*jet)[2] = {pair.c_second / TT, 0, SmoothSecond(sigma) / TT,
+  (*jet)[2] = {pair.c_second / TT,
+               0,
+               SmoothSecond(sigma) / TT,
                RampedSecond(foot, h.ramp) / (TT * foot_window * foot_window),
                SmoothSecond(height) / (TT * height_window * height_window),
                SmoothSecond(rise) / (TT * rise_window * rise_window)};
@@ -166,7 +169,8 @@ void ClosedFormWalk::CutIntoStretches() {
     const Real up_moves = up.begin + (up.sigma2 + up.delay) * up.T;
     const Real down_moves_end = down.begin + (down.sigma1 - down.delay) * down.T;
     flights.push_back({up.swing, up.begin + up.sigma2 * up.T, down.begin + down.sigma1 * down.T,
-                       std::min(up_moves, down.begin), std::max(down_moves_end, up.end), up.lands_at});
+                       std::min(up_moves, down.begin), std::max(down_moves_end, up.end),
+                       up.lands_at});
     for (Real knot : {flights.back().begin, flights.back().end, up_moves, down_moves_end}) {
       knots.push_back(static_cast<double>(knot));
     }
@@ -179,9 +183,9 @@ void ClosedFormWalk::CutIntoStretches() {
     const Real foot_end = h.up ? Real(1) : h.sigma1 - h.delay;
     const Real ramp = h.ramp * (foot_end - foot_begin);
     const Real lift = h.up ? h.sigma2 + h.share * (1 - h.sigma2) : h.sigma1 * (1 - h.share);
-    for (Real knot : {Real(0), Real(1), h.sigma1, h.sigma2, bump, h.sigma1 - bump, h.sigma2 + bump,
-                      1 - bump, foot_begin + ramp, foot_end - ramp, lift, h.rise_begin,
-                      h.rise_end}) {
+    for (Real knot :
+         {Real(0), Real(1), h.sigma1, h.sigma2, bump, h.sigma1 - bump, h.sigma2 + bump, 1 - bump,
+          foot_begin + ramp, foot_end - ramp, lift, h.rise_begin, h.rise_end}) {
       knots.push_back(static_cast<double>(h.begin + knot * h.T));
     }
   }

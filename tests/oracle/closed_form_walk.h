@@ -82,7 +82,7 @@ struct WalkPlan {
 struct WalkState {
   struct Values {
     Eigen::Vector2d com, zmp;
-    double waist_yaw = 0, waist_z = 0;  ///< z: above where the waist stands over the level 0
+    double waist_yaw = 0, waist_z = 0;    ///< z: above where the waist stands over the level 0
     std::array<Eigen::Vector4d, 2> feet;  ///< x, y, z, yaw
   };
   Values value, rate;

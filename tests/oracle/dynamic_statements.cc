@@ -33,8 +33,8 @@ std::array<Eigen::Vector3d, 2> WalkTruth::FloorOn(size_t foot, Instant& at,
   const double lambda = left / (left + right), share = foot == 1 ? lambda : 1 - lambda;
   // Each foot's own ZMP is as far from its centre; yaw moments are shared in proportion.
   Eigen::Vector3d at_foot = feet[foot].head<3>();
-  at_foot.head<2>() += (1 - lambda) * (p[0] - feet[0].head<2>()) +
-                       lambda * (p[1] - feet[1].head<2>());
+  at_foot.head<2>() +=
+      (1 - lambda) * (p[0] - feet[0].head<2>()) + lambda * (p[1] - feet[1].head<2>());
   if (level) at_foot.z() = 0;
   at_foot.head<2>() -= dynamics.zmp_in_world();
   Eigen::Vector3d turns = at_foot.cross(dynamics.force);
@@ -62,8 +62,8 @@ std::vector<Eigen::Vector2d> WalkTruth::SeenAlongForce(Instant& at, const Stretc
 double WalkTruth::FrictionNeeded(Instant& at, const Stretch& s) const {
   const PlainDynamics& dynamics = DynamicsOf(at);
   const auto& feet = at.state.value.feet;
-  const bool level = demands_.forgets == ForgetsHeights::kInFriction ||
-                     std::abs(feet[0][2] - feet[1][2]) < 1e-10;
+  const bool level =
+      demands_.forgets == ForgetsHeights::kInFriction || std::abs(feet[0][2] - feet[1][2]) < 1e-10;
   double lever = 0;
   if (s.in_air < 0 && !level) {
     std::array<std::array<Eigen::Vector2d, 4>, 2> soles;

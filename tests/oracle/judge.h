@@ -20,14 +20,14 @@ namespace halfstep::oracle {
 /// What a control has the oracle take for true of a walk over levels, each by a little.
 enum class OracleMistake {
   kNone,
-  kRisersNearer,    ///< all solids 5 mm larger, for a robot of HRP-2's size
-  kEdgesNearer,     ///< 1 mm smaller
-  kTreadsHigher,    ///< by 1 mm
-  kTreadsLower,     ///< by 1 mm
-  kWaistLater,      ///< its height changes a twentieth of T later
-  kFlatShadows,     ///< both soles at one height, in shadows
-  kFlatFriction,    ///< in friction
-  kFlatLoads,       ///< in what each foot carries
+  kRisersNearer,  ///< all solids 5 mm larger, for a robot of HRP-2's size
+  kEdgesNearer,   ///< 1 mm smaller
+  kTreadsHigher,  ///< by 1 mm
+  kTreadsLower,   ///< by 1 mm
+  kWaistLater,    ///< its height changes a twentieth of T later
+  kFlatShadows,   ///< both soles at one height, in shadows
+  kFlatFriction,  ///< in friction
+  kFlatLoads,     ///< in what each foot carries
 };
 inline constexpr int kNumOracleMistakes = 9;
 

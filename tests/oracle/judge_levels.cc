@@ -32,9 +32,9 @@ void CutAfterFirstStep(WalkPlan* plan) {
                          &plan->via_alongs, &plan->overlaps}) {
     cut(1, of_steps);
   }
-  for (auto* of_half_steps : {&plan->durations, &plan->foot_ramps, &plan->foot_delays,
-                              &plan->lift_shares, &plan->zmp_shifts, &plan->zmp_bump_ramps,
-                              &plan->rise_begins, &plan->rise_ends}) {
+  for (auto* of_half_steps :
+       {&plan->durations, &plan->foot_ramps, &plan->foot_delays, &plan->lift_shares,
+        &plan->zmp_shifts, &plan->zmp_bump_ramps, &plan->rise_begins, &plan->rise_ends}) {
     cut(2, of_half_steps);
   }
   cut(1, &plan->footsteps);

@@ -22,8 +22,8 @@ struct SoleReach {
   }
 };
 
-// Soles that are long beside the legs take longer steps from tread to tread, for which the waist has
-// to be lower: a length that is 1 m for HRP-2 [m].
+// Soles that are long beside the legs take longer steps from tread to tread, for which the waist
+// has to be lower: a length that is 1 m for HRP-2 [m].
 double Crouches(const PlainRobot& robot) {
   const SoleReach reach(robot);
   const double longer = (reach.front + reach.back) / (0.22 * robot.size());
@@ -112,8 +112,7 @@ void BuildRows(SceneKind kind, std::vector<Row> rows, const FloorPose& origin, d
     flight.run = rows[1].end - rows[1].begin;
     flight.width = 2 * half;
     flight.at = {foot.x, foot.y, from};
-    flight.yaw_deg =
-        std::remainder(foot.yaw * 180 / std::numbers::pi + (up ? 0 : 180), 360);
+    flight.yaw_deg = std::remainder(foot.yaw * 180 / std::numbers::pi + (up ? 0 : 180), 360);
     scene->surfaces.push_back(flight);
     return;
   }

@@ -257,9 +257,8 @@ PlainObstacle DrawObstacle(SceneKind kind, const ClosedFormWalk& walk, double si
   constexpr std::array<SceneKind, 5> kThatMove = {SceneKind::kThinPlates, SceneKind::kNeedles,
                                                   SceneKind::kPrimitives, SceneKind::kClosedMeshes,
                                                   SceneKind::kClouds};
-  PlainObstacle o =
-      Small(kind == SceneKind::kMoving ? kThatMove[static_cast<size_t>(draw->Below(5))] : kind,
-            draw);
+  PlainObstacle o = Small(
+      kind == SceneKind::kMoving ? kThatMove[static_cast<size_t>(draw->Below(5))] : kind, draw);
   o.size *= size;
   for (Eigen::Vector3d& v : o.vertices) v *= size;
   o.xyz = NearTheWay(walk, size, draw);

@@ -75,7 +75,8 @@ void CalmOverLevels(const PlainRobot& robot, WalkPlan* plan, PlainScene* scene);
 
 /// `size` of the robot: PlainRobot::size.
 PlainScene DrawNastyScene(SceneKind kind, const WalkPlan& plan, double size, Draw* draw);
-/// One obstacle of a kind, somewhere about the feet; not kHugeMeshes, kFarVertices, kNested, kNoStep.
+/// One obstacle of a kind, somewhere about the feet; not kHugeMeshes, kFarVertices, kNested,
+/// kNoStep.
 PlainObstacle DrawObstacle(SceneKind kind, const ClosedFormWalk& walk, double size, Draw* draw);
 /// A small area of the ground about the feet.
 Polygon DrawArea(const ClosedFormWalk& walk, double size, Draw* draw);

@@ -179,9 +179,9 @@ struct Postures {
   }
   Eigen::Isometry3d Waist(const WalkState::Values& x) const {
     const double c = std::cos(x.waist_yaw), s = std::sin(x.waist_yaw);
-    return Place({x.com.x() - c * robot.com_x, x.com.y() - s * robot.com_x,
-                  robot.waist_height + x.waist_z},
-                 x.waist_yaw);
+    return Place(
+        {x.com.x() - c * robot.com_x, x.com.y() - s * robot.com_x, robot.waist_height + x.waist_z},
+        x.waist_yaw);
   }
   // Momentum, angular momentum about W's origin, energy.
   Eigen::Matrix<double, 7, 1> Momenta(double t) const {
@@ -375,7 +375,8 @@ TEST(PlainSolesTest, TheSectionHoldsTwoPointsAndADisc) {
         double lever = 10;
         for (const HullSide& side : sides) {
           const double apart = -side.offset;
-          lever = std::min({lever, apart / std::max(std::abs(side.inwards.dot(along.along)), 0.25)});
+          lever =
+              std::min({lever, apart / std::max(std::abs(side.inwards.dot(along.along)), 0.25)});
         }
         longest = std::max(longest, lever);
       }
@@ -512,8 +513,8 @@ TEST_P(OracleTest, NoAnswerOverLevelsIsFalse) {
   const Judge judge(path_);
   std::vector<std::string> falsehoods;
   Tally all;
-  constexpr std::array kFamilies = {MarginFamily::kZmpRobot, MarginFamily::kFloor,
-                                    MarginFamily::kFoothold, MarginFamily::kFriction,
+  constexpr std::array kFamilies = {MarginFamily::kZmpRobot,  MarginFamily::kFloor,
+                                    MarginFamily::kFoothold,  MarginFamily::kFriction,
                                     MarginFamily::kClearance, MarginFamily::kTorque};
   // Two for each robot.
   const auto robot = std::find(kShippedRobots.begin(), kShippedRobots.end(), GetParam());
@@ -555,8 +556,8 @@ TEST_P(OracleTest, AnOracleThatIsWrongAboutLevelsFindsFalsehoods) {
     const bool differs = tally.families[name].disagreement > 1e-4;
     EXPECT_TRUE(differs || !falsehoods.empty()) << k << " " << name;
     found += !falsehoods.empty();
-    EXPECT_GT(found, 0);
-}
+  }
+  EXPECT_GT(found, 0);
 }
 
 // An oracle that takes one foot to be heavier by a fiftieth calls true answers false.

@@ -26,7 +26,7 @@ struct PlainDynamics {
   Eigen::Vector3d force{0, 0, 0};       ///< of the floor on the robot [N]
   /// Where in the plane z = 0 the floor's moment is upright, seen from there [m].
   Eigen::Vector3d zmp{0, 0, 0};
-  double yaw_moment = 0;         ///< that moment [N m]
+  double yaw_moment = 0;  ///< that moment [N m]
   std::array<std::array<Carried, 6>, 2> carried;
 
   Eigen::Vector2d zmp_in_world() const { return (below_com + zmp).head<2>(); }

@@ -51,8 +51,9 @@ struct PlainScene {
 std::string WriteScene(const PlainScene& scene, const std::string& folder);
 
 /// What stands near a walk, in W: obstacles as convex pieces, where they are at the start. A point
-/// that meets an obstacle at t is asked for AtStart. The ground is no obstacle. Meshes as their own triangles, cut in
-/// quadruple precision to a box of some metres, so that far corners cost no digits.
+/// that meets an obstacle at t is asked for AtStart. The ground is no obstacle. Meshes as their own
+/// triangles, cut in quadruple precision to a box of some metres, so that far corners cost no
+/// digits.
 class PlacedScene {
  public:
   /// `center` of the box [m].

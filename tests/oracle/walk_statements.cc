@@ -81,11 +81,10 @@ void WalkTruth::AddFootholdStatements() {
     statements_.push_back(
         {"foothold", kFeet[foot], 3.0,
          [this, foot, both, known, own = Touching(robot_, foot, 1e-9)](Instant& at,
-                                                                      const Stretch& s) {
+                                                                       const Stretch& s) {
            if (s.in_air == static_cast<int>(foot)) return Exactly(kNever);
            const Eigen::Vector4d& place = at.state.value.feet[foot];
-           const auto [found, fresh] =
-               known->try_emplace({place[0], place[1], place[2], place[3]});
+           const auto [found, fresh] = known->try_emplace({place[0], place[1], place[2], place[3]});
            if (fresh) {
              const PlainGround& ground = scene_.ground();
              found->second = {ground.Inside(Standing(both, place), place[2]),
@@ -102,13 +101,12 @@ void WalkTruth::AddFootStatements() {
   for (int foot = 0; foot < 2; ++foot) {
     const size_t i = static_cast<size_t>(foot);
     const auto swings = [foot](const Stretch& s) { return s.in_air == foot; };
-    statements_.push_back({"floor", kFeet[i], 2.0,
-                           [=, this, own = Touching(robot_, i, kNever)](Instant& at,
-                                                                        const Stretch& s) {
-                             if (!swings(s) || !s.moves) return Exactly(kNever);
-                             return FlatFootAbove(scene_.ground(), own, both,
-                                                  at.state.value.feet[i]);
-                           }});
+    statements_.push_back(
+        {"floor", kFeet[i], 2.0,
+         [=, this, own = Touching(robot_, i, kNever)](Instant& at, const Stretch& s) {
+           if (!swings(s) || !s.moves) return Exactly(kNever);
+           return FlatFootAbove(scene_.ground(), own, both, at.state.value.feet[i]);
+         }});
     const Demands& d = demands_;
     statements_.push_back(
         {"foot_speed", kFeet[i], 40.0, [=, limit = d.foot_speed](Instant& at, const Stretch& s) {

@@ -181,10 +181,10 @@ void WalkTruth::AddSolidStatements() {
       statements_.push_back(
           {"clearance", robot_.bodies[b].name + " - " + solid.name, 3.0,
            [this, b, foot = j == 5 ? leg : -1, &solid, &far = far_["clearance"]](Instant& at,
-                                                                               const Stretch&) {
+                                                                                 const Stretch&) {
              if (!at.reaches) return Exactly(-kNever);
-             if (foot >= 0 && solid.top <= at.X_WSole[static_cast<size_t>(foot)].translation().z() +
-                                               1e-8) {
+             if (foot >= 0 &&
+                 solid.top <= at.X_WSole[static_cast<size_t>(foot)].translation().z() + 1e-8) {
                return Exactly(kNever);
              }
              const double quick =
