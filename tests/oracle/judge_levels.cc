@@ -62,6 +62,7 @@ Tally Judge::JudgeFamily(MarginFamily family, SceneKind kind, unsigned seed,
   const ClosedFormWalk walk(Seen(drawn.plan));
   WalkTruth truth(plain_, walk, *drawn.placed, drawn.plain_scene.no_step, Seen(drawn));
   Compare(drawn, std::array{family}, &truth, &tally);
+  JudgeCertified(drawn, drawn.limits, truth.Least(std::string(Name(family))), truth, &tally);
   Push(drawn, family, &truth, &tally);
   tally.instants += truth.instants();
   return tally;

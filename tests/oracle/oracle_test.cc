@@ -548,13 +548,17 @@ TEST_P(OracleTest, AnOracleThatIsWrongAboutLevelsFindsFalsehoods) {
   for (auto k = static_cast<size_t>(robot - kShippedRobots.begin()); k < mistakes.size(); k += 3) {
     const auto& [mistake, family] = mistakes[k];
     const Judge judge(path_, mistake);
+    // An answer that it calls false, or a value that is another, in a walk of one of the kinds: the
+    // waist keeps its height where the first step goes up.
     std::vector<std::string> falsehoods;
-    Tally tally = judge.JudgeFamily(family, SceneKind::kStairs, LevelSeed(SceneKind::kStairs),
-                                    folder_.path().string(), &falsehoods);
-    // An answer that it calls false, or a value that is another.
-    const std::string name(Name(family));
-    const bool differs = tally.families[name].disagreement > 1e-4;
-    EXPECT_TRUE(differs || !falsehoods.empty()) << k << " " << name;
+    bool differs = false;
+    for (unsigned of = 0; of < kNumLevelKinds && falsehoods.empty() && !differs; ++of) {
+      const SceneKind kind = LevelKind(of);
+      Tally tally =
+          judge.JudgeFamily(family, kind, LevelSeed(kind), folder_.path().string(), &falsehoods);
+      differs = tally.families[std::string(Name(family))].disagreement > 1e-4;
+    }
+    EXPECT_TRUE(differs || !falsehoods.empty()) << k;
     found += !falsehoods.empty();
   }
   EXPECT_GT(found, 0);
