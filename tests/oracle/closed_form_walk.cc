@@ -38,13 +38,13 @@ int FirstOf(int foot) { return 5 + 4 * foot; }
 ClosedFormWalk::ClosedFormWalk(const WalkPlan& plan) {
   const Real omega = Sqrt(Real(kGravity) / Real(plan.com_height));
   std::array<FloorPose, 2> feet = plan.start;
-  // With both feet on the floor.
-  const auto standing = [&feet](int support) {
+  // With both feet on the ground: the waist is over the lower one.
+  const auto standing = [&feet, &plan] {
     const FloorPose &l = feet[0], &r = feet[1];
     const Real x = (Real(l.x) + r.x) / 2, y = (Real(l.y) + r.y) / 2;
-    (void)support;
-    return Quantities{x,   y,   x, y,    (Real(l.yaw) + r.yaw) / 2, l.x, l.y, 0, l.yaw,
-                      r.x, r.y, 0, r.yaw};
+    const Real waist = Real(std::min(l.z, r.z)) - Real(plan.crouch);
+    return Quantities{x,   y,   x,     y,    (Real(l.yaw) + r.yaw) / 2, l.x, l.y, l.z, l.yaw, r.x,
+                      r.y, r.z, r.yaw, waist};
   };
   Real begin = 0;
   for (size_t i = 0; i < 2 * plan.steps.size(); ++i) {
@@ -52,7 +52,7 @@ ClosedFormWalk::ClosedFormWalk(const WalkPlan& plan) {
     const FloorPose support = feet[static_cast<size_t>(1 - step.foot)];
     const bool up = i % 2 == 0;
     if (!up) feet[static_cast<size_t>(step.foot)] = plan.landing_of(i / 2);
-    const Quantities on_floor = standing(1 - step.foot);
+    const Quantities on_floor = standing();
     Quantities via = on_floor;
     const Real inward = (step.foot == 0 ? 1 : -1) * Real(plan.support_points[i / 2]);
     via[0] = via[2] = support.x - Sin(Real(support.yaw)) * inward;
@@ -63,8 +63,9 @@ ClosedFormWalk::ClosedFormWalk(const WalkPlan& plan) {
     const Real ahead = plan.via_along_of(i);
     via[f] = support.x + Cos(Real(support.yaw)) * ahead - Sin(Real(support.yaw)) * aside;
     via[f + 1] = support.y + Sin(Real(support.yaw)) * ahead + Cos(Real(support.yaw)) * aside;
-    via[f + 2] = Real(plan.height_scales[i / 2]) * Real(step.via_height);
+    via[f + 2] = support.z + Real(plan.height_scales[i / 2]) * Real(step.via_height);
     via[f + 3] = support.yaw;
+    via[13] = Real(support.z) - Real(plan.crouch);
     const Real T = plan.durations[i];
     HalfStep half_step{
         .up = up,
@@ -78,6 +79,9 @@ ClosedFormWalk::ClosedFormWalk(const WalkPlan& plan) {
         .ramp = plan.foot_ramp_of(i),
         .share = plan.lift_share_of(i),
         .bump_ramp = plan.bump_ramp_of(i),
+        .rise_begin = up ? Real(plan.rise_begin_of(i)) : 1 - Real(plan.rise_end_of(i)),
+        .rise_end = up ? Real(plan.rise_end_of(i)) : 1 - Real(plan.rise_begin_of(i)),
+        .lands_at = plan.landing_of(i / 2).z,
         .profile = RestToRestClosedForm(omega * T, plan.shift_of(i), plan.bump_ramp_of(i))};
     half_step.from = up ? on_floor : via;
     const Quantities& to = up ? via : on_floor;
@@ -99,19 +103,27 @@ void ClosedFormWalk::Fractionize(const HalfStep& h, Real tau, Jet* jet) const {
   const Real height_window = h.share * flight;
   const Real foot = (sigma - foot_begin) / foot_window;
   const Real height = (sigma - height_begin) / height_window;
-  (*jet)[0] = {pair.c, pair.p, Smooth(sigma), Ramped(foot, h.ramp), Smooth(height)};
-  (*jet)[1] = {pair.c_rate / h.T, pair.p_rate / h.T, SmoothSlope(sigma) / h.T,
+  const Real rise_window = h.rise_end - h.rise_begin, rise = (sigma - h.rise_begin) / rise_window;
+  (*jet)[0] = {pair.c, pair.p, Smooth(sigma), Ramped(foot, h.ramp), Smooth(height), Smooth(rise)};
+  (*jet)[1] = {pair.c_rate / h.T,
+               pair.p_rate / h.T,
+               SmoothSlope(sigma) / h.T,
                RampedSlope(foot, h.ramp) / (h.T * foot_window),
-               SmoothSlope(height) / (h.T * height_window)};
-  (*jet)[2] = {pair.c_second / TT, 0, SmoothSecond(sigma) / TT,
+               SmoothSlope(height) / (h.T * height_window),
+               SmoothSlope(rise) / (h.T * rise_window)};
+  (*jet)[2] = {pair.c_second / TT,
+               0,
+               SmoothSecond(sigma) / TT,
                RampedSecond(foot, h.ramp) / (TT * foot_window * foot_window),
-               SmoothSecond(height) / (TT * height_window * height_window)};
+               SmoothSecond(height) / (TT * height_window * height_window),
+               SmoothSecond(rise) / (TT * rise_window * rise_window)};
 }
 
 Real ClosedFormWalk::Of(const Fractions& fractions, int quantity) {
   if (quantity < 2) return fractions.com;
   if (quantity < 4) return fractions.zmp;
   if (quantity == 4) return fractions.waist;
+  if (quantity == 13) return fractions.rise;
   return (quantity - 5) % 4 == 2 ? fractions.height : fractions.foot;
 }
 
@@ -120,13 +132,13 @@ WalkState ClosedFormWalk::At(Real t) const {
   for (const HalfStep& h : half_steps_) {
     if (t <= h.begin) break;
     if (t >= h.end) {
-      for (size_t k = 0; k < 13; ++k) walk[0][k] += h.change[k];
+      for (size_t k = 0; k < walk[0].size(); ++k) walk[0][k] += h.change[k];
       continue;
     }
     Jet jet;
     Fractionize(h, t - h.begin, &jet);
     for (size_t d = 0; d < 3; ++d) {
-      for (int q = 0; q < 13; ++q) {
+      for (int q = 0; q < 14; ++q) {
         const size_t k = static_cast<size_t>(q);
         walk[d][k] += h.change[k] * Of(jet[d], q);
       }
@@ -138,6 +150,7 @@ WalkState ClosedFormWalk::At(Real t) const {
         {d(0), d(1)},
         {d(2), d(3)},
         d(4),
+        d(13),
         {Eigen::Vector4d(d(5), d(6), d(7), d(8)), Eigen::Vector4d(d(9), d(10), d(11), d(12))}};
   };
   return {pack(walk[0]), pack(walk[1]), pack(walk[2])};
@@ -147,6 +160,7 @@ void ClosedFormWalk::CutIntoStretches() {
   struct Air {
     int foot;
     Real begin, end, moves_begin, moves_end;
+    double lands_at;
   };
   std::vector<Air> flights;
   std::vector<double> knots;
@@ -155,7 +169,8 @@ void ClosedFormWalk::CutIntoStretches() {
     const Real up_moves = up.begin + (up.sigma2 + up.delay) * up.T;
     const Real down_moves_end = down.begin + (down.sigma1 - down.delay) * down.T;
     flights.push_back({up.swing, up.begin + up.sigma2 * up.T, down.begin + down.sigma1 * down.T,
-                       std::min(up_moves, down.begin), std::max(down_moves_end, up.end)});
+                       std::min(up_moves, down.begin), std::max(down_moves_end, up.end),
+                       up.lands_at});
     for (Real knot : {flights.back().begin, flights.back().end, up_moves, down_moves_end}) {
       knots.push_back(static_cast<double>(knot));
     }
@@ -168,8 +183,9 @@ void ClosedFormWalk::CutIntoStretches() {
     const Real foot_end = h.up ? Real(1) : h.sigma1 - h.delay;
     const Real ramp = h.ramp * (foot_end - foot_begin);
     const Real lift = h.up ? h.sigma2 + h.share * (1 - h.sigma2) : h.sigma1 * (1 - h.share);
-    for (Real knot : {Real(0), Real(1), h.sigma1, h.sigma2, bump, h.sigma1 - bump, h.sigma2 + bump,
-                      1 - bump, foot_begin + ramp, foot_end - ramp, lift}) {
+    for (Real knot :
+         {Real(0), Real(1), h.sigma1, h.sigma2, bump, h.sigma1 - bump, h.sigma2 + bump, 1 - bump,
+          foot_begin + ramp, foot_end - ramp, lift, h.rise_begin, h.rise_end}) {
       knots.push_back(static_cast<double>(h.begin + knot * h.T));
     }
   }
@@ -182,6 +198,7 @@ void ClosedFormWalk::CutIntoStretches() {
       if (middle < air.begin || middle > air.end) continue;
       stretch.in_air = air.foot;
       stretch.moves = middle >= air.moves_begin && middle <= air.moves_end;
+      stretch.lands_at = air.lands_at;
     }
     for (const HalfStep& h : half_steps_) {
       const Real sigma = (middle - h.begin) / h.T;

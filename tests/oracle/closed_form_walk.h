@@ -11,16 +11,16 @@
 
 namespace halfstep::oracle {
 
-/// Place of a sole on the floor, in W [m, rad].
+/// Place of a sole, in W [m, rad]; z: the height of the level that it stands on.
 struct FloorPose {
-  double x = 0, y = 0, yaw = 0;
+  double x = 0, y = 0, yaw = 0, z = 0;
 };
 
 /// Feet: 0 left, 1 right, here and below.
 struct PlannedStep {
   int foot = 0;
   FloorPose landing;
-  double via_height = 0;  ///< [m]
+  double via_height = 0;  ///< above the support sole [m]
   double duration = 0;    ///< T of each half-step, as planned [s]
 };
 
@@ -35,6 +35,7 @@ struct WalkPlan {
   double foot_ramp = 0.5;             ///< of the foot's horizontal motion
   double lift_share = 1;              ///< of the foot's flight
   double com_height = 0;              ///< z_c [m]
+  double crouch = 0;                  ///< the waist is so far below where it stands [m]
   std::vector<double> overlaps;       ///< Δ_i [s]
   std::vector<double> height_scales;  ///< η_j
   std::vector<double> durations;      ///< T_i [s]
@@ -46,6 +47,9 @@ struct WalkPlan {
   std::vector<double> via_laterals, foot_ramps, foot_delays, lift_shares;
   /// The same; and of step j, how far its via point is ahead of the support sole's centre [m].
   std::vector<double> zmp_shifts, zmp_bump_ramps, via_alongs;
+  /// Of half-step i, as fractions of T_i next to the floor: from when until when the waist's height
+  /// changes; empty: as below.
+  std::vector<double> rise_begins, rise_ends;
   /// Of step j: its landing's place seen from where it is planned; empty: it is there.
   std::vector<FloorPose> footsteps;
 
@@ -62,7 +66,7 @@ struct WalkPlan {
     const FloorPose& move = footsteps[step];
     const double c = std::cos(planned.yaw), s = std::sin(planned.yaw);
     return {planned.x + c * move.x - s * move.y, planned.y + s * move.x + c * move.y,
-            planned.yaw + move.yaw};
+            planned.yaw + move.yaw, planned.z};
   }
   double shift_of(size_t i) const { return zmp_shifts.empty() ? shift : zmp_shifts[i]; }
   double bump_ramp_of(size_t i) const {  ///< of half-step i
@@ -70,13 +74,15 @@ struct WalkPlan {
   }
   double via_along_of(size_t i) const { return via_alongs.empty() ? 0 : via_alongs[i / 2]; }
   double lift_share_of(size_t i) const { return lift_shares.empty() ? lift_share : lift_shares[i]; }
+  double rise_begin_of(size_t i) const { return rise_begins.empty() ? 0.525 : rise_begins[i]; }
+  double rise_end_of(size_t i) const { return rise_ends.empty() ? 1 : rise_ends[i]; }
 };
 
 /// The walk at one instant, in W [m, rad]; `rate` per second, `second` per second squared.
 struct WalkState {
   struct Values {
     Eigen::Vector2d com, zmp;
-    double waist_yaw = 0;
+    double waist_yaw = 0, waist_z = 0;    ///< z: above where the waist stands over the level 0
     std::array<Eigen::Vector4d, 2> feet;  ///< x, y, z, yaw
   };
   Values value, rate;
@@ -89,6 +95,7 @@ struct Stretch {
   double begin = 0, end = 0;  ///< [s]
   int in_air = -1;            ///< foot that is in the air, or −1
   bool moves = false;         ///< that foot is in its horizontal motion
+  double lands_at = 0;        ///< height of the level where it will stand [m]
   /// The shortest time that a ZMP takes from foot to foot, of those that are on their way in it
   /// [s]; ∞: none is.
   double shift = std::numeric_limits<double>::infinity();
@@ -112,19 +119,21 @@ class ClosedFormWalk {
 
  private:
   using Quantities =
-      std::array<Real, 13>;  // com xy, zmp xy, waist yaw, left xyz yaw, right xyz yaw
+      std::array<Real, 14>;  // com xy, zmp xy, waist yaw, left xyz yaw, right xyz yaw, waist z
   struct HalfStep {
     bool up = true;
     int swing = 0;
     Real begin = 0, end = 0, T = 0;
     Real sigma1 = 0, sigma2 = 0;                         // between which the ZMP shifts
     Real delay = 0, ramp = 0, share = 0, bump_ramp = 1;  // as the plan has them
+    Real rise_begin = 0, rise_end = 1;                   // of T from its beginning
+    double lands_at = 0;                                 // of the whole step
     Quantities from{}, change{};
     RestToRestClosedForm profile;
   };
-  // Profiles of com, zmp, waist, foot, height and their rates.
+  // Profiles of com, zmp, waist's yaw, foot, its height, waist's height, and their rates.
   struct Fractions {
-    Real com = 0, zmp = 0, waist = 0, foot = 0, height = 0;
+    Real com = 0, zmp = 0, waist = 0, foot = 0, height = 0, rise = 0;
   };
   using Jet = std::array<Fractions, 3>;  // value, rate, second
   void Fractionize(const HalfStep& half_step, Real tau, Jet* jet) const;

@@ -11,8 +11,8 @@ const PlainDynamics& WalkTruth::DynamicsOf(Instant& at) const {
   return *at.dynamics;
 }
 
-// The wrench of the floor on one foot, as wpg/README.md has two feet share it: force, and moment
-// about the ZMP.
+// The wrench of the ground on one foot, as wpg/README.md has two feet share it: force, and moment
+// about the place where the ground's moment on both is upright in the plane z = 0.
 std::array<Eigen::Vector3d, 2> WalkTruth::FloorOn(size_t foot, Instant& at,
                                                   const Stretch& s) const {
   const PlainDynamics& dynamics = DynamicsOf(at);
@@ -22,22 +22,61 @@ std::array<Eigen::Vector3d, 2> WalkTruth::FloorOn(size_t foot, Instant& at,
     return {dynamics.force, moment};
   }
   const auto& feet = at.state.value.feet;
-  const Eigen::Vector2d p = dynamics.zmp_in_world();
-  const double left = FromSole(feet[0], robot_.sole_size, p);
-  const double right = FromSole(feet[1], robot_.sole_size, p);
-  const double lambda = left / (left + right);
-  Eigen::Vector3d apart(0, 0, 0);
-  apart.head<2>() = (feet[1] - feet[0]).head<2>();
-  const Eigen::Vector3d couple =
-      lambda * (1 - lambda) * dynamics.force.z() * apart.cross(Eigen::Vector3d(0, 0, 1));
-  if (foot == 1) return {lambda * dynamics.force, lambda * moment + couple};
-  return {(1 - lambda) * dynamics.force, (1 - lambda) * moment - couple};
+  const bool level = demands_.forgets == ForgetsHeights::kInLoads;
+  std::array<Eigen::Vector2d, 2> p;  // in the planes of the soles
+  for (size_t i = 0; i < 2; ++i) p[i] = dynamics.zmp_at(level ? 0 : feet[i][2]);
+  const double left = FromSole(feet[0], robot_.sole_size, p[0]);
+  const double right = FromSole(feet[1], robot_.sole_size, p[1]);
+  if (!(left + right > 0)) {
+    return {Eigen::Vector3d::Constant(kNever), Eigen::Vector3d::Constant(kNever)};
+  }
+  const double lambda = left / (left + right), share = foot == 1 ? lambda : 1 - lambda;
+  // Each foot's own ZMP is as far from its centre; yaw moments are shared in proportion.
+  Eigen::Vector3d at_foot = feet[foot].head<3>();
+  at_foot.head<2>() +=
+      (1 - lambda) * (p[0] - feet[0].head<2>()) + lambda * (p[1] - feet[1].head<2>());
+  if (level) at_foot.z() = 0;
+  at_foot.head<2>() -= dynamics.zmp_in_world();
+  Eigen::Vector3d turns = at_foot.cross(dynamics.force);
+  turns.z() = dynamics.yaw_moment;
+  return {share * dynamics.force, share * turns};
+}
+
+// Corners of the soles that stand, along the force onto a plane: seen from where the line of the
+// ZMP meets it, which for each corner is where it passes the corner's height.
+std::vector<Eigen::Vector2d> WalkTruth::SeenAlongForce(Instant& at, const Stretch& s) const {
+  std::vector<Eigen::Vector2d> corners;
+  for (size_t foot = 0; foot < 2; ++foot) {
+    if (s.in_air == static_cast<int>(foot)) continue;
+    const Eigen::Vector4d& place = at.state.value.feet[foot];
+    const bool level = demands_.forgets == ForgetsHeights::kInShadows;
+    const Eigen::Vector2d p = DynamicsOf(at).zmp_at(level ? 0 : place[2]);
+    Eigen::Vector4d seen = place;
+    seen.head<2>() -= p;
+    for (const auto& c : SoleCorners(seen, robot_.sole_size)) corners.push_back(c);
+  }
+  return corners;
 }
 
 // The coefficient that suffices for a pressure of two points.
 double WalkTruth::FrictionNeeded(Instant& at, const Stretch& s) const {
   const PlainDynamics& dynamics = DynamicsOf(at);
-  const double lever = LongestLever(SupportCorners(at.state, s), dynamics.zmp_in_world());
+  const auto& feet = at.state.value.feet;
+  const bool level =
+      demands_.forgets == ForgetsHeights::kInFriction || std::abs(feet[0][2] - feet[1][2]) < 1e-10;
+  double lever = 0;
+  if (s.in_air < 0 && !level) {
+    std::array<std::array<Eigen::Vector2d, 4>, 2> soles;
+    for (size_t i = 0; i < 2; ++i) {
+      Eigen::Vector4d seen = feet[i];
+      seen.head<2>() -= dynamics.zmp_at(feet[i][2]);
+      soles[i] = SoleCorners(seen, robot_.sole_size);
+    }
+    lever = LongestSectionLever(soles[0], soles[1]);
+  } else {
+    const double height = feet[s.in_air == 0 ? 1 : 0][2];
+    lever = LongestLever(SupportCorners(at.state, s), dynamics.zmp_at(height));
+  }
   if (!(lever > 0) || !(dynamics.force.z() > 0)) return kNever;
   return (dynamics.force.head<2>().norm() + std::abs(dynamics.yaw_moment) / lever) /
          dynamics.force.z();
@@ -48,7 +87,7 @@ void WalkTruth::AddDynamicStatements() {
   statements_.push_back(
       {"zmp_robot", "", 20.0 * robot_.size(), [this](Instant& at, const Stretch& s) {
          if (!at.reaches || !(DynamicsOf(at).force.z() > 0)) return Exactly(-kNever);
-         return Exactly(InsideHull(SupportCorners(at.state, s), DynamicsOf(at).zmp_in_world()));
+         return Exactly(InsideHull(SeenAlongForce(at, s), {0, 0}));
        }});
   statements_.push_back({"friction", "", 20.0, [this](Instant& at, const Stretch& s) {
                            if (!at.reaches) return Exactly(-kNever);

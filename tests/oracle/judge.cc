@@ -37,33 +37,6 @@ std::string Line(const char* what, const std::string& of, double value, double d
 
 }  // namespace
 
-void FamilyTally::Add(const FamilyTally& other) {
-  statements += other.statements;
-  pushed += other.pushed;
-  falsified += other.falsified;
-  found += other.found;
-  least_spare = std::min(least_spare, other.least_spare);
-  if (other.disagreement > disagreement) {
-    disagreement = other.disagreement;
-    where = other.where;
-  }
-}
-
-void Tally::Add(const Tally& other) {
-  walks += other.walks;
-  refused += other.refused;
-  certified += other.certified;
-  violated += other.violated;
-  undecided += other.undecided;
-  judged += other.judged;
-  false_certified += other.false_certified;
-  false_violated += other.false_violated;
-  instants += other.instants;
-  for (const auto& [name, family] : other.families) families[name].Add(family);
-  for (const auto& [name, family] : other.tubes) tubes[name].Add(family);
-  missed.insert(missed.end(), other.missed.begin(), other.missed.end());
-}
-
 Judge::Judge(const std::string& robot_yaml, const std::string& plain_yaml, double tolerance)
     : plain_(plain_yaml), robot_(LoadRobot(robot_yaml)), tolerance_(tolerance) {
   // Where a robot's file states none.
@@ -133,18 +106,21 @@ void Judge::JudgeViolated(const Case& drawn, const MarginLimits& limits, const M
 }
 
 // What both sides say at the middle of each stretch.
-void Judge::Compare(const Case& drawn, WalkTruth* truth, Tally* tally) const {
+void Judge::Compare(const Case& drawn, std::span<const MarginFamily> families, WalkTruth* truth,
+                    Tally* tally) const {
   const SuperposedWalk walk(ToSequence(drawn.plan), ToParameters(drawn.plan));
   MarginEvaluator::Scratch scratch = drawn.evaluator->MakeScratch();
   for (const Stretch& stretch : truth->walk().stretches()) {
     const double t = 0.5 * (stretch.begin + stretch.end);
     const MarginSet margins = drawn.evaluator->At(walk, walk.Locate(t), &scratch);
-    for (const MarginFamily family : drawn.evaluator->families()) {
+    for (const MarginFamily family : families) {
       const std::string name(Name(family));
       const TrueMargin margin = truth->At(name, t, "");
       const double theirs = margins[static_cast<size_t>(family)].value;
-      const bool in_metres =
-          IsDistance(family) || family == MarginFamily::kGround || family == MarginFamily::kNoStep;
+      const bool to_solids = family == MarginFamily::kFloor || family == MarginFamily::kFoothold;
+      const bool in_metres = IsDistance(family) || family == MarginFamily::kGround ||
+                             family == MarginFamily::kNoStep ||
+                             (to_solids && drawn.plain_scene.has_levels());
       if (!std::isfinite(theirs) && theirs == margin.value) continue;
       // Overlaps are told by their sign alone, and what is far away is not told apart.
       if (in_metres && !(theirs > 0 && theirs < kNear)) continue;
@@ -204,7 +180,8 @@ void Judge::Push(const Case& drawn, MarginFamily family, WalkTruth* truth, Tally
   }
 }
 
-// Takes obstacles out of the planned way, and makes the plan calmer, until it is certified.
+// Takes obstacles out of the planned way, and makes the plan calmer and levels lower, until it is
+// certified.
 bool Judge::FindFeasible(const std::string& folder, Case* drawn, Tally* tally) const {
   const ClosedFormWalk walk(drawn->plan);
   const Eigen::Vector4d middle = walk.At(Real(0.5 * walk.duration())).value.feet[0];
@@ -218,22 +195,28 @@ bool Judge::FindFeasible(const std::string& folder, Case* drawn, Tally* tally) c
       ++tally->refused;
       return false;
     }
-    drawn->placed =
-        std::make_unique<PlacedScene>(drawn->plain_scene, Eigen::Vector3d(middle[0], middle[1], 0));
+    drawn->placed = std::make_unique<PlacedScene>(Seen(drawn->plain_scene),
+                                                  Eigen::Vector3d(middle[0], middle[1], 0));
     drawn->Overlap(overlaps, 0);
     const Feasibility answer = Ask(*drawn, drawn->limits, {});
     Count(answer, tally);
     if (answer.verdict == Verdict::kFeasible) break;
     const Margin& witness = answer.witness;
     const bool by_another = answer.verdict == Verdict::kViolated && witness.other >= 0;
-    if (by_another && witness.family == MarginFamily::kClearance) {
-      auto& obstacles = drawn->plain_scene.obstacles;
+    auto& obstacles = drawn->plain_scene.obstacles;
+    // Solids of the ground come after the obstacles.
+    if (by_another && witness.family == MarginFamily::kClearance &&
+        witness.other < static_cast<int>(obstacles.size())) {
       obstacles.erase(obstacles.begin() + witness.other);
     } else if (by_another && witness.family == MarginFamily::kNoStep) {
       auto& areas = drawn->plain_scene.no_step;
       areas.erase(areas.begin() + witness.other);
     } else if (++calmed <= 5) {
-      Calm(&drawn->plan);
+      if (drawn->plain_scene.has_levels()) {
+        CalmOverLevels(plain_, &drawn->plan, &drawn->plain_scene);
+      } else {
+        Calm(&drawn->plan);
+      }
     } else {
       return false;
     }
@@ -256,25 +239,27 @@ void Judge::RaiseOverlaps(Case* drawn, Tally* tally) const {
     (answer.verdict == Verdict::kFeasible ? low : high) = share;
     if (low == 1) break;
     if (answer.verdict == Verdict::kViolated && high - low < 0.05) {
-      const ClosedFormWalk walk(drawn->plan);
-      WalkTruth truth(plain_, walk, *drawn->placed, drawn->plain_scene.no_step,
-                      ToDemands(drawn->limits, drawn->plain_scene.friction));
+      const ClosedFormWalk walk(Seen(drawn->plan));
+      WalkTruth truth(plain_, walk, *drawn->placed, drawn->plain_scene.no_step, Seen(*drawn));
       JudgeViolated(*drawn, drawn->limits, answer.witness, &truth, tally);
     }
   }
   drawn->Overlap(overlaps, low);
 }
 
-Tally Judge::JudgeOne(SceneKind kind, unsigned seed, const std::string& folder,
-                      std::vector<std::string>* falsehoods) const {
-  Draw draw(seed);
-  Tally tally;
-  tally.walks = 1;
+// Draws a walk, its scene and what is demanded of it.
+Judge::Case Judge::DrawCase(SceneKind kind, unsigned seed, Draw* draw_from, Draw* further_from,
+                            std::vector<std::string>* falsehoods) const {
+  Draw &draw = *draw_from, &further = *further_from;
   Case drawn;
   drawn.name = robot_.name + ", " + NameOf(kind) + ", seed " + std::to_string(seed);
   drawn.falsehoods = falsehoods;
-  drawn.plan = DrawPlan(plain_, &draw);
-  drawn.plain_scene = DrawNastyScene(kind, drawn.plan, plain_.size(), &draw);
+  if (IsOverLevels(kind)) {
+    DrawLevels(kind, plain_, &draw, &drawn.plan, &drawn.plain_scene);
+  } else {
+    drawn.plan = DrawPlan(plain_, &draw);
+    drawn.plain_scene = DrawNastyScene(kind, drawn.plan, plain_.size(), &draw);
+  }
   drawn.limits.clearance_cap = 0.05;
   if (draw.Chance(0.5)) {
     drawn.limits.demanded_of(MarginFamily::kClearance) = draw.Uniform(0, 0.02);
@@ -289,7 +274,6 @@ Tally Judge::JudgeOne(SceneKind kind, unsigned seed, const std::string& folder,
   drawn.limits.demanded_of(MarginFamily::kDoubleSupport) = 0.0;
   drawn.limits.landing_speed = drawn.limits.foot_speed;
   // One in three is demanded what the profile walkable demands, or less of it.
-  Draw further(seed ^ 0x5bd1e995u);
   if (further.Chance(0.33)) {
     drawn.limits.demanded_of(MarginFamily::kZmpRobot) =
         plain_.sole_size.y() * further.Uniform(0, 0.2);
@@ -298,21 +282,32 @@ Tally Judge::JudgeOne(SceneKind kind, unsigned seed, const std::string& folder,
         0.08 * std::sqrt(plain_.size()) * further.Uniform(0, 1);
     drawn.limits.landing_speed = further.Uniform(0.2, 1);
   }
+  if (IsOverLevels(kind)) LimitOverLevels(&further, &drawn);
+  return drawn;
+}
+
+Tally Judge::JudgeOne(SceneKind kind, unsigned seed, const std::string& folder,
+                      std::vector<std::string>* falsehoods) const {
+  Draw draw(seed), further(seed ^ 0x5bd1e995u);
+  Tally tally;
+  tally.walks = 1;
+  Case drawn = DrawCase(kind, seed, &draw, &further, falsehoods);
   if (!FindFeasible(folder, &drawn, &tally)) return tally;
   RaiseOverlaps(&drawn, &tally);
-  const ClosedFormWalk walk(drawn.plan);
-  WalkTruth truth(plain_, walk, *drawn.placed, drawn.plain_scene.no_step,
-                  ToDemands(drawn.limits, drawn.plain_scene.friction));
+  const ClosedFormWalk walk(Seen(drawn.plan));
+  WalkTruth truth(plain_, walk, *drawn.placed, drawn.plain_scene.no_step, Seen(drawn));
   JudgeCertified(drawn, drawn.limits, truth.Least(), truth, &tally);
-  Compare(drawn, &truth, &tally);
+  Compare(drawn, drawn.evaluator->families(), &truth, &tally);
   // The families that came last, one more, and often clearance.
   std::vector<MarginFamily> pushed = {
       MarginFamily::kZmpRobot,          MarginFamily::kTorque,        MarginFamily::kFriction,
       MarginFamily::kJointAcceleration, MarginFamily::kDoubleSupport, MarginFamily::kLandingSpeed};
   pushed.push_back(static_cast<MarginFamily>(draw.Below(static_cast<int>(MarginFamily::kOwn))));
   if (draw.Chance(0.6)) pushed.push_back(MarginFamily::kClearance);
+  const bool levels = drawn.plain_scene.has_levels();
+  if (levels) pushed.insert(pushed.end(), {MarginFamily::kFloor, MarginFamily::kFoothold});
   for (const MarginFamily family : pushed) Push(drawn, family, &truth, &tally);
-  PushTubes(drawn, &truth, &further, &tally);
+  if (!levels) PushTubes(drawn, &truth, &further, &tally);  // over levels they are refused
   tally.instants += truth.instants();
   return tally;
 }

@@ -235,7 +235,9 @@ PlainObstacle Nested(const ClosedFormWalk& walk, double size, Draw* draw) {
   return o;
 }
 
-std::vector<Eigen::Vector2d> Area(const ClosedFormWalk& walk, double size, Draw* draw) {
+}  // namespace
+
+Polygon DrawArea(const ClosedFormWalk& walk, double size, Draw* draw) {
   const Eigen::Vector2d at = NearTheWay(walk, size, draw).head<2>();
   const double across =
       size * (draw->Chance(0.3) ? draw->Uniform(0.002, 0.02) : draw->Uniform(0.02, 0.2));
@@ -251,21 +253,34 @@ std::vector<Eigen::Vector2d> Area(const ClosedFormWalk& walk, double size, Draw*
   return polygon;
 }
 
-}  // namespace
+PlainObstacle DrawObstacle(SceneKind kind, const ClosedFormWalk& walk, double size, Draw* draw) {
+  constexpr std::array<SceneKind, 5> kThatMove = {SceneKind::kThinPlates, SceneKind::kNeedles,
+                                                  SceneKind::kPrimitives, SceneKind::kClosedMeshes,
+                                                  SceneKind::kClouds};
+  PlainObstacle o = Small(
+      kind == SceneKind::kMoving ? kThatMove[static_cast<size_t>(draw->Below(5))] : kind, draw);
+  o.size *= size;
+  for (Eigen::Vector3d& v : o.vertices) v *= size;
+  o.xyz = NearTheWay(walk, size, draw);
+  o.rpy_deg = draw->Chance(0.4) ? Eigen::Vector3d(0, 0, draw->Uniform(-180, 180)) : AnyTurn(draw);
+  return o;
+}
 
 Eigen::Vector3d NearTheWay(const ClosedFormWalk& walk, double size, Draw* draw) {
   const WalkState at = walk.At(Real(draw->Uniform(0, walk.duration())));
   const Eigen::Vector4d& foot = at.value.feet[static_cast<size_t>(draw->Below(2))];
   const double away = size * draw->Uniform(0, 0.3), towards = draw->Uniform(-3.15, 3.15);
   const double z = size * (draw->Chance(0.6) ? draw->Uniform(0, 0.15) : draw->Uniform(0, 0.7));
-  return {foot[0] + away * std::cos(towards), foot[1] + away * std::sin(towards), z};
+  const double ground = std::min(at.value.feet[0][2], at.value.feet[1][2]);
+  return {foot[0] + away * std::cos(towards), foot[1] + away * std::sin(towards), ground + z};
 }
 
 const char* NameOf(SceneKind kind) {
-  constexpr std::array<const char*, kNumSceneKinds> kNames = {
+  constexpr std::array<const char*, kNumSceneKinds + kNumLevelKinds> kNames = {
       "thin plates",  "needles",        "tiny spheres",   "primitives", "closed meshes",
       "open meshes",  "flipped meshes", "doubled meshes", "degenerate", "huge meshes",
-      "far vertices", "nested solids",  "no-step areas",  "clouds",     "moving obstacles"};
+      "far vertices", "nested solids",  "no-step areas",  "clouds",     "moving obstacles",
+      "stairs",       "platforms",      "stones",         "blocks"};
   return kNames[static_cast<size_t>(kind)];
 }
 
@@ -279,7 +294,7 @@ PlainScene DrawNastyScene(SceneKind kind, const WalkPlan& plan, double size, Dra
   if (kind == SceneKind::kHugeMeshes || kind == SceneKind::kFarVertices) count = 1 + draw->Below(3);
   for (int k = 0; k < count; ++k) {
     if (kind == SceneKind::kNoStep) {
-      scene.no_step.push_back(Area(walk, size, draw));
+      scene.no_step.push_back(DrawArea(walk, size, draw));
       continue;
     }
     PlainObstacle o;
@@ -290,16 +305,7 @@ PlainScene DrawNastyScene(SceneKind kind, const WalkPlan& plan, double size, Dra
     } else if (kind == SceneKind::kNested) {
       o = Nested(walk, size, draw);
     } else {
-      constexpr std::array<SceneKind, 5> kThatMove = {SceneKind::kThinPlates, SceneKind::kNeedles,
-                                                      SceneKind::kPrimitives,
-                                                      SceneKind::kClosedMeshes, SceneKind::kClouds};
-      o = Small(kind == SceneKind::kMoving ? kThatMove[static_cast<size_t>(draw->Below(5))] : kind,
-                draw);
-      o.size *= size;
-      for (Eigen::Vector3d& v : o.vertices) v *= size;
-      o.xyz = NearTheWay(walk, size, draw);
-      o.rpy_deg =
-          draw->Chance(0.4) ? Eigen::Vector3d(0, 0, draw->Uniform(-180, 180)) : AnyTurn(draw);
+      o = DrawObstacle(kind, walk, size, draw);
     }
     if (kind == SceneKind::kMoving) AddMotion(walk, size, draw, &o);
     o.name = "o" + std::to_string(k);

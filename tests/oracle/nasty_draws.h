@@ -27,8 +27,15 @@ enum class SceneKind : int {
   kNoStep,            ///< areas of the floor
   kClouds,            ///< points with balls of some centimetres
   kMoving,            ///< obstacles that move by waypoints, or are known to some centimetres
+  // Over levels.
+  kStairs,     ///< up or down, step over step or both feet on each tread
+  kPlatforms,  ///< up, along and down, of one height
+  kStones,     ///< one for each footstep, higher and lower, over nothing or out of the floor
+  kBlocks,     ///< side by side, a row for each foot
 };
-constexpr int kNumSceneKinds = 15;
+constexpr int kNumSceneKinds = 15;  ///< on the flat floor
+constexpr int kNumLevelKinds = 4;   ///< after these
+inline bool IsOverLevels(SceneKind kind) { return static_cast<int>(kind) >= kNumSceneKinds; }
 const char* NameOf(SceneKind kind);
 
 /// Random numbers, reproducible from the seed.
@@ -59,9 +66,21 @@ void Calm(WalkPlan* plan);
 /// Largest overlap of junction i by smoothing/README.md, "Natural bounds" [s].
 double NaturalBound(const WalkPlan& plan, size_t junction);
 
+/// A walk over drawn levels of that kind, in its scene: heights in proportion to the robot's size
+/// (1: rises to 15 cm). With obstacles, areas, or things that move, in half of the draws.
+void DrawLevels(SceneKind kind, const PlainRobot& robot, Draw* draw, WalkPlan* plan,
+                PlainScene* scene);
+/// Calm, the waist a little lower, all heights of the ground a quarter less.
+void CalmOverLevels(const PlainRobot& robot, WalkPlan* plan, PlainScene* scene);
+
 /// `size` of the robot: PlainRobot::size.
 PlainScene DrawNastyScene(SceneKind kind, const WalkPlan& plan, double size, Draw* draw);
-/// Somewhere about the feet and legs of a walk, in W [m].
+/// One obstacle of a kind, somewhere about the feet; not kHugeMeshes, kFarVertices, kNested,
+/// kNoStep.
+PlainObstacle DrawObstacle(SceneKind kind, const ClosedFormWalk& walk, double size, Draw* draw);
+/// A small area of the ground about the feet.
+Polygon DrawArea(const ClosedFormWalk& walk, double size, Draw* draw);
+/// Somewhere about the feet and legs of a walk, in W [m]; over levels from the lower foot up.
 Eigen::Vector3d NearTheWay(const ClosedFormWalk& walk, double size, Draw* draw);
 /// Waypoints that lead an obstacle past the walk, or not, and how well its place is known.
 void AddMotion(const ClosedFormWalk& walk, double size, Draw* draw, PlainObstacle* obstacle);

@@ -1,12 +1,18 @@
 // Asks the project about nasty walks and scenes and judges every answer by the oracle. Prints the
 // tables of tests/oracle/README.md; exit status 1 when an answer was false.
-// Run: oracle_study [WALKS [SEED [ROBOT|all [KIND]]]]
+// Run: oracle_study [WALKS [SEED [ROBOT|all [KIND|flat|levels [FILE]]]]]
+// FILE gets a line for each walk. Walks that it has are not judged again, and the tables are of all
+// its lines: a study that was stopped goes on, and seeds add up.
 
 #include <array>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
+#include <map>
 #include <memory>
+#include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -50,7 +56,53 @@ void PrintFamilies(const Tally& all) {
   }
 }
 
-int Run(long walks, unsigned seed, const std::string& only_robot, int only_kind) {
+// What was judged, in all.
+struct Sums {
+  std::array<Tally, kNumSceneKinds + kNumLevelKinds> by_kind;
+  std::map<std::string, Tally> by_robot;
+
+  void Add(const std::string& robot, int kind, const Tally& tally) {
+    by_kind.at(static_cast<size_t>(kind)).Add(tally);
+    by_robot[robot].Add(tally);
+  }
+  void Print() const {
+    std::printf(
+        "| scene or robot | walks | refused | certified | violated | undecided | sampled | "
+        "false certified | false violated |\n|---|---|---|---|---|---|---|---|---|\n");
+    Tally all;
+    for (size_t kind = 0; kind < by_kind.size(); ++kind) {
+      if (by_kind[kind].walks == 0) continue;
+      PrintRow(NameOf(static_cast<SceneKind>(kind)), by_kind[kind]);
+      all.Add(by_kind[kind]);
+    }
+    for (const auto& [robot, tally] : by_robot) PrintRow(robot.c_str(), tally);
+    PrintRow("all", all);
+    PrintFamilies(all);
+    for (const std::string& line : all.missed) std::printf("not found: %s\n", line.c_str());
+    std::printf("%ld instants by the oracle, %ld walks without a certified answer\n", all.instants,
+                all.idle);
+  }
+};
+
+// Adds the file's lines "SEED WALK ROBOT KIND TALLY"; others are remarks. Returns their names.
+std::set<std::string> ReadSums(const std::string& file, Sums* sums) {
+  std::set<std::string> known;
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);) {
+    if (line.empty() || line[0] == '#') continue;
+    std::istringstream words(line);
+    std::string seed, walk, robot, rest;
+    int kind = 0;
+    words >> seed >> walk >> robot >> kind;
+    std::getline(words, rest);
+    known.insert(seed + " " + walk + " " + robot + " " + std::to_string(kind));
+    sums->Add(robot, kind, ToTally(rest));
+  }
+  return known;
+}
+
+int Run(long walks, unsigned seed, const std::string& only_robot, const std::string& kinds,
+        const std::string& file) {
   std::vector<std::string> names = {"hrp2", "bison", "wren"};
   if (only_robot != "all") names = {only_robot};
   const TemporaryFolder folder;
@@ -58,8 +110,15 @@ int Run(long walks, unsigned seed, const std::string& only_robot, int only_kind)
   for (const std::string& name : names) {
     judges.push_back(std::make_unique<Judge>(WriteJudgedRobot(name, folder.path().string())));
   }
-  std::array<Tally, kNumSceneKinds> by_kind;
-  std::vector<Tally> by_robot(names.size());
+  int first = 0, count = kNumSceneKinds;
+  if (kinds == "levels") {
+    first = kNumSceneKinds, count = kNumLevelKinds;
+  } else if (kinds != "flat") {
+    first = std::atoi(kinds.c_str()), count = 1;
+  }
+  Sums sums;
+  const std::set<std::string> known = ReadSums(file, &sums);
+  std::ofstream lines(file, std::ios::app);
   std::vector<std::string> falsehoods;
   size_t told = 0;
   const auto begin = std::chrono::steady_clock::now();
@@ -68,38 +127,28 @@ int Run(long walks, unsigned seed, const std::string& only_robot, int only_kind)
   };
   for (long w = 0; w < walks; ++w) {
     const auto robot = static_cast<size_t>(w) % names.size();
-    const int kind = only_kind >= 0
-                         ? only_kind
-                         : static_cast<int>(w / static_cast<long>(names.size())) % kNumSceneKinds;
+    const int kind = first + static_cast<int>(w / static_cast<long>(names.size())) % count;
+    const std::string name = std::to_string(seed) + " " + std::to_string(w) + " " + names[robot] +
+                             " " + std::to_string(kind);
+    if (known.contains(name)) continue;
     const Tally tally = judges[robot]->JudgeOne(static_cast<SceneKind>(kind),
                                                 seed * 1000000u + static_cast<unsigned>(w),
                                                 folder.path().string(), &falsehoods);
-    by_kind[static_cast<size_t>(kind)].Add(tally);
-    by_robot[robot].Add(tally);
+    sums.Add(names[robot], kind, tally);
+    for (const std::string& line : tally.missed) lines << "# not found: " << line << "\n";
     for (; told < falsehoods.size(); ++told) {
       std::printf("FALSE: %s\n", falsehoods[told].c_str());
       std::fflush(stdout);
+      lines << "# FALSE: " << falsehoods[told] << "\n";
     }
+    lines << name << " " << ToLine(tally) << std::endl;
     if ((w + 1) % 100 == 0) {
       std::fprintf(stderr, "%ld walks, %zu falsehoods, %.2f s a walk\n", w + 1, falsehoods.size(),
                    seconds() / static_cast<double>(w + 1));
     }
   }
-  std::printf(
-      "| scene or robot | walks | refused | certified | violated | undecided | sampled | "
-      "false certified | false violated |\n|---|---|---|---|---|---|---|---|---|\n");
-  Tally all;
-  for (int kind = 0; kind < kNumSceneKinds; ++kind) {
-    const Tally& tally = by_kind[static_cast<size_t>(kind)];
-    if (tally.walks == 0) continue;
-    PrintRow(NameOf(static_cast<SceneKind>(kind)), tally);
-    all.Add(tally);
-  }
-  for (size_t r = 0; r < names.size(); ++r) PrintRow(names[r].c_str(), by_robot[r]);
-  PrintRow("all", all);
-  PrintFamilies(all);
-  for (const std::string& line : all.missed) std::printf("not found: %s\n", line.c_str());
-  std::printf("seed %u, %ld instants by the oracle\n", seed, all.instants);
+  sums.Print();
+  std::printf("seed %u\n", seed);
   std::fprintf(stderr, "%.0f s\n", seconds());
   return falsehoods.empty() ? 0 : 1;
 }
@@ -111,5 +160,6 @@ int main(int argc, char** argv) {
   const long walks = argc > 1 ? std::atol(argv[1]) : 2000;
   const unsigned seed = argc > 2 ? static_cast<unsigned>(std::atoi(argv[2])) : 1;
   const std::string robot = argc > 3 ? argv[3] : "all";
-  return halfstep::oracle::Run(walks, seed, robot, argc > 4 ? std::atoi(argv[4]) : -1);
+  return halfstep::oracle::Run(walks, seed, robot, argc > 4 ? argv[4] : "flat",
+                               argc > 5 ? argv[5] : "");
 }

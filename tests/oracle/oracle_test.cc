@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <set>
 
 #include "smoothing/walk/superposed_walk.h"
@@ -19,6 +20,10 @@ namespace halfstep::oracle {
 namespace {
 
 constexpr char kRobot[] = HALFSTEP_SOURCE_DIR "/wpg/robots/hrp2.yaml";
+
+SceneKind LevelKind(unsigned k) {
+  return static_cast<SceneKind>(kNumSceneKinds + static_cast<int>(k) % kNumLevelKinds);
+}
 
 TEST(RestToRestClosedFormTest, KeepsTheLipmAndItsEnds) {
   for (const double theta : {0.6, 3.0, 6.94, 20.0}) {
@@ -46,9 +51,15 @@ TEST(RestToRestClosedFormTest, KeepsTheLipmAndItsEnds) {
 
 TEST(ClosedFormWalkTest, AgreesWithTheProject) {
   const PlainRobot robot(kRobot);
-  for (unsigned seed = 0; seed < 30; ++seed) {  // with rests among them
+  for (unsigned seed = 0; seed < 46; ++seed) {  // with rests among them; the last 16 over levels
     Draw draw(seed);
-    const WalkPlan plan = DrawPlan(robot, &draw);
+    WalkPlan plan;
+    PlainScene scene;
+    if (seed < 30) {
+      plan = DrawPlan(robot, &draw);
+    } else {
+      DrawLevels(LevelKind(seed), robot, &draw, &plan, &scene);
+    }
     const ClosedFormWalk oracle(plan);
     const SuperposedWalk walk(ToSequence(plan), ToParameters(plan));
     ASSERT_NEAR(oracle.duration(), walk.duration(), 1e-12);
@@ -60,6 +71,8 @@ TEST(ClosedFormWalkTest, AgreesWithTheProject) {
       EXPECT_LT((state.value.com - jet.value.segment<2>(kComX)).norm(), far) << seed << " " << t;
       EXPECT_LT((state.value.zmp - jet.value.segment<2>(kZmpX)).norm(), far);
       EXPECT_NEAR(state.value.waist_yaw, jet.value[kWaistYaw], far);
+      EXPECT_NEAR(state.value.waist_z, jet.value[kWaistZ], far) << seed << " " << t;
+      EXPECT_NEAR(state.second.waist_z, jet.second[kWaistZ], 1e-9) << seed << " " << t;
       EXPECT_LT((state.rate.com - jet.first.segment<2>(kComX)).norm(), 1e-10);
       EXPECT_LT((state.second.com - jet.second.segment<2>(kComX)).norm(), 1e-9);
       EXPECT_NEAR(state.second.waist_yaw, jet.second[kWaistYaw], 1e-9);
@@ -166,8 +179,9 @@ struct Postures {
   }
   Eigen::Isometry3d Waist(const WalkState::Values& x) const {
     const double c = std::cos(x.waist_yaw), s = std::sin(x.waist_yaw);
-    return Place({x.com.x() - c * robot.com_x, x.com.y() - s * robot.com_x, robot.waist_height},
-                 x.waist_yaw);
+    return Place(
+        {x.com.x() - c * robot.com_x, x.com.y() - s * robot.com_x, robot.waist_height + x.waist_z},
+        x.waist_yaw);
   }
   // Momentum, angular momentum about W's origin, energy.
   Eigen::Matrix<double, 7, 1> Momenta(double t) const {
@@ -195,7 +209,14 @@ struct Postures {
 TEST_P(PlainRobotTest, DynamicsAreThoseOfDifferencesOfMomentumAndEnergy) {
   const PlainRobot robot(path_);
   Draw draw(11);
-  const WalkPlan plan = DrawPlan(robot, &draw);
+  WalkPlan plan = DrawPlan(robot, &draw);
+  // From level to level, by a little.
+  plan.crouch = 0.04 * robot.size();
+  plan.start[0].z = 0.02 * robot.size();
+  for (size_t j = 0; j < plan.steps.size(); ++j) {
+    plan.steps[j].landing.z = (j % 2 == 0 ? -0.01 : 0.03) * robot.size();
+    plan.steps[j].via_height += 0.04 * robot.size();
+  }
   const ClosedFormWalk walk(plan);
   const Postures postures{robot, walk};
   for (const Stretch& stretch : walk.stretches()) {
@@ -278,6 +299,135 @@ TEST(MinNormPointTest, KnowsTheDistanceFromATiltedDisc) {
   }
 }
 
+// Two soles at drawn places and heights, a force, and where its line passes z = 0.
+struct DrawnContact {
+  std::array<Eigen::Vector4d, 2> feet;
+  Eigen::Vector2d size{0.2, 0.12};
+  Eigen::Vector3d force, zmp;
+
+  explicit DrawnContact(Draw* draw) {
+    for (size_t i = 0; i < 2; ++i) {
+      const double y = (i == 0 ? 1 : -1) * draw->Uniform(0, 0.2);
+      feet[i] = {draw->Uniform(-0.2, 0.2), y, draw->Uniform(-0.3, 0.3), draw->Uniform(-1, 1)};
+    }
+    force = {draw->Uniform(-200, 200), draw->Uniform(-200, 200), draw->Uniform(100, 700)};
+    zmp = {draw->Uniform(-0.3, 0.3), draw->Uniform(-0.3, 0.3), 0};
+  }
+  // Corners seen from where the line passes the plane of their sole.
+  std::array<Eigen::Vector2d, 4> Seen(size_t i) const {
+    Eigen::Vector4d seen = feet[i];
+    seen.head<2>() -= (zmp + feet[i][2] / force.z() * force).head<2>();
+    return SoleCorners(seen, size);
+  }
+};
+
+// Pushing forces along f at corners of both soles that have the moment of f on its line but for its
+// upright part: three corners are enough, if any are.
+TEST(PlainSolesTest, ForcesAtCornersExistWhereTheLineIsInsideTheShadows) {
+  Draw draw(21);
+  int inside = 0;
+  for (int k = 0; k < 400; ++k) {
+    const DrawnContact contact(&draw);
+    std::vector<Eigen::Vector2d> seen;
+    std::vector<Eigen::Vector3d> turns;  // moment of all of f at a corner about a point of its line
+    for (size_t i = 0; i < 2; ++i) {
+      for (const Eigen::Vector2d& c : contact.Seen(i)) seen.push_back(c);
+      for (const Eigen::Vector2d& c : SoleCorners(contact.feet[i], contact.size)) {
+        const Eigen::Vector3d corner(c.x(), c.y(), contact.feet[i][2]);
+        turns.push_back((corner - contact.zmp).cross(contact.force));
+      }
+    }
+    bool exist = false;
+    for (size_t a = 0; a < 8; ++a) {
+      for (size_t b = 0; b < a; ++b) {
+        for (size_t c = 0; c < b; ++c) {
+          Eigen::Matrix3d A;
+          A << turns[a].head<2>(), turns[b].head<2>(), turns[c].head<2>(), 1, 1, 1;
+          const Eigen::Vector3d w = A.fullPivLu().solve(Eigen::Vector3d(0, 0, 1));
+          exist = exist || (w.minCoeff() >= 0 && (A * w - Eigen::Vector3d(0, 0, 1)).norm() < 1e-9);
+        }
+      }
+    }
+    EXPECT_EQ(exist, InsideHull(seen, {0, 0}) > 0) << k;
+    inside += exist;
+  }
+  EXPECT_GT(inside, 50);
+  EXPECT_LT(inside, 350);
+}
+
+// The best section against sections that are hulls of all pairs of corners, at steps of λ.
+TEST(PlainSolesTest, TheSectionHoldsTwoPointsAndADisc) {
+  Draw draw(22);
+  int held = 0;
+  for (int k = 0; k < 100; ++k) {
+    const DrawnContact contact(&draw);
+    const auto left = contact.Seen(0), right = contact.Seen(1);
+    double longest = -1;
+    for (int step = 0; step <= 50; ++step) {
+      std::vector<Eigen::Vector2d> section;
+      for (const Eigen::Vector2d& a : left) {
+        for (const Eigen::Vector2d& b : right) {
+          section.push_back(a + step / 50.0 * (b - a));
+        }
+      }
+      const std::vector<HullSide> sides = HullSides(section);
+      for (const HullSide& along : sides) {
+        double lever = 10;
+        for (const HullSide& side : sides) {
+          const double apart = -side.offset;
+          lever =
+              std::min({lever, apart / std::max(std::abs(side.inwards.dot(along.along)), 0.25)});
+        }
+        longest = std::max(longest, lever);
+      }
+    }
+    const double found = LongestSectionLever(left, right);
+    EXPECT_LT(longest, std::max(found, 0.0) + 1e-12) << k;
+    if (found > 0.01) {
+      EXPECT_GT(longest, 0.9 * found - 0.002) << k;
+    }
+    held += found > 0;
+  }
+  EXPECT_GT(held, 15);
+}
+
+TEST(PlainGroundTest, KnowsWhereALevelEnds) {
+  const auto square = [](double x, double y, double side) {
+    return Polygon{{x, y}, {x + side, y}, {x + side, y + side}, {x, y + side}};
+  };
+  // Two squares of one level side by side, a higher one beyond, a bridge above all.
+  std::vector<PlainSurface> surfaces = {
+      {.name = "a", .polygon = square(0, 0, 1), .height = 0.45},
+      {.name = "b", .polygon = square(1, 0, 1), .height = 3 * 0.15},
+      {.name = "c", .polygon = square(2, 0, 1), .height = 0.6},
+      {.name = "d", .polygon = square(0, 0, 1), .height = 2, .thickness = 0.1}};
+  const PlainGround ground(true, surfaces);
+  EXPECT_NEAR(ground.Inside(square(0.9, 0.4, 0.2), 0.45), 0.4, 1e-12);
+  EXPECT_NEAR(ground.Inside(square(1.7, 0.4, 0.2), 0.45), 0.1, 1e-12);
+  EXPECT_LT(ground.Inside(square(1.9, 0.4, 0.2), 0.45), 0);
+  EXPECT_EQ(ground.Inside(square(0.9, 0.4, 0.2), 0.46), -kNever);
+  EXPECT_NEAR(ground.Inside(square(-0.3, 0.4, 0.2), 0), 0.1, 1e-12);
+  EXPECT_EQ(ground.HeightUnder({1.5, 0.5}), 0.45);
+  EXPECT_EQ(ground.HeightUnder({0.5, 0.5}), 2);
+  EXPECT_EQ(ground.HeightUnder({-5, 0.5}), 0);
+  PlainSurface flight{.name = "flight", .count = 3, .rise = 0.15, .run = 0.3, .width = 1};
+  flight.yaw_deg = 90;
+  const PlainGround stairs(false, {flight});
+  EXPECT_EQ(stairs.HeightUnder({0.1, 0.7}), 0.45);
+  EXPECT_EQ(stairs.HeightUnder({0.1, -0.1}), std::nullopt);
+  EXPECT_NEAR(stairs.Inside(square(-0.1, 0.35, 0.2), 0.3), 0.05, 1e-12);
+}
+
+TEST(TallyTest, ComesBackFromItsLine) {
+  Tally tally;
+  tally.walks = 1;
+  tally.certified = 7;
+  tally.instants = 123456;
+  tally.families["floor"].pushed = 3;
+  tally.families["floor"].disagreement = 1.0 / 3;
+  EXPECT_EQ(ToLine(ToTally(ToLine(tally))), ToLine(tally));
+}
+
 TEST(PlainSceneTest, KnowsInsideFromOutside) {
   Draw draw(7);
   PlainScene scene;
@@ -306,6 +456,12 @@ class OracleTest : public testing::TestWithParam<std::string> {
       kinds.push_back(static_cast<SceneKind>(k));
     }
     return kinds;
+  }
+  // Of a walk that is feasible as it is drawn, or nearly: of stairs, platforms, stones, blocks.
+  unsigned LevelSeed(SceneKind kind) const {
+    const std::map<std::string, std::array<unsigned, kNumLevelKinds>> seeds = {
+        {"hrp2", {0, 15, 18, 9}}, {"bison", {25, 4, 19, 34}}, {"wren", {26, 5, 20, 83}}};
+    return 77000000u + seeds.at(GetParam()).at(static_cast<size_t>(kind) - kNumSceneKinds);
   }
   const TemporaryFolder folder_;
   const std::string path_ = WriteJudgedRobot(GetParam(), folder_.path().string());
@@ -350,6 +506,62 @@ TEST_P(OracleTest, NoAnswerIsFalseAndFalsifiedOnesAreFound) {
   }
   EXPECT_GT(tubes.pushed, 3);
   EXPECT_GT(tubes.found, 0);
+}
+
+// Over levels, and what an oracle that is a little wrong about them finds.
+TEST_P(OracleTest, NoAnswerOverLevelsIsFalse) {
+  const Judge judge(path_);
+  std::vector<std::string> falsehoods;
+  Tally all;
+  constexpr std::array kFamilies = {MarginFamily::kZmpRobot, MarginFamily::kFloor,
+                                    MarginFamily::kFoothold, MarginFamily::kFriction,
+                                    MarginFamily::kTorque};
+  // One or two for each robot.
+  const auto robot = std::find(kShippedRobots.begin(), kShippedRobots.end(), GetParam());
+  for (auto k = static_cast<size_t>(robot - kShippedRobots.begin()); k < kFamilies.size(); k += 3) {
+    const MarginFamily family = kFamilies[k];
+    const auto kind = LevelKind(static_cast<unsigned>(family));
+    all.Add(judge.JudgeFamily(family, kind, LevelSeed(kind), folder_.path().string(), &falsehoods));
+  }
+  EXPECT_THAT(falsehoods, testing::IsEmpty());
+  EXPECT_GT(all.judged, 0);
+  for (const auto& [name, family] : all.families) {
+    EXPECT_EQ(family.found, family.falsified) << name;
+    EXPECT_LT(family.disagreement, 1e-8) << name;
+  }
+}
+
+TEST_P(OracleTest, AnOracleThatIsWrongAboutLevelsFindsFalsehoods) {
+  const std::vector<std::pair<OracleMistake, MarginFamily>> mistakes = {
+      {OracleMistake::kRisersNearer, MarginFamily::kFloor},
+      {OracleMistake::kEdgesNearer, MarginFamily::kFoothold},
+      {OracleMistake::kTreadsHigher, MarginFamily::kFoothold},
+      {OracleMistake::kTreadsLower, MarginFamily::kFoothold},
+      {OracleMistake::kWaistLater, MarginFamily::kReach},
+      {OracleMistake::kFlatShadows, MarginFamily::kZmpRobot},
+      {OracleMistake::kFlatFriction, MarginFamily::kFriction},
+      {OracleMistake::kFlatLoads, MarginFamily::kTorque}};
+  ASSERT_EQ(mistakes.size() + 1, kNumOracleMistakes);
+  // A few for each robot.
+  int found = 0;
+  const auto robot = std::find(kShippedRobots.begin(), kShippedRobots.end(), GetParam());
+  for (auto k = static_cast<size_t>(robot - kShippedRobots.begin()); k < mistakes.size(); k += 3) {
+    const auto& [mistake, family] = mistakes[k];
+    const Judge judge(path_, mistake);
+    // An answer that it calls false, or a value that is another, in a walk of one of the kinds: the
+    // waist keeps its height where the first step goes up.
+    std::vector<std::string> falsehoods;
+    bool differs = false;
+    for (unsigned of = 0; of < kNumLevelKinds && falsehoods.empty() && !differs; ++of) {
+      const SceneKind kind = LevelKind(of);
+      Tally tally =
+          judge.JudgeFamily(family, kind, LevelSeed(kind), folder_.path().string(), &falsehoods);
+      differs = tally.families[std::string(Name(family))].disagreement > 1e-4;
+    }
+    EXPECT_TRUE(differs || !falsehoods.empty()) << k;
+    found += !falsehoods.empty();
+  }
+  EXPECT_GT(found, 0);
 }
 
 // An oracle that takes one foot to be heavier by a fiftieth calls true answers false.

@@ -68,11 +68,11 @@ PlainDynamics::PlainDynamics(const PlainRobot& robot, const WalkState& state,
   const Eigen::Vector2d aside(-ahead.y(), ahead.x());
   Frame waist;
   waist.R = Eigen::AngleAxisd(x.waist_yaw, kUp).toRotationMatrix();
-  waist.origin << -robot.com_x * ahead, robot.waist_height;
-  waist.velocity << v.com - robot.com_x * v.waist_yaw * aside, 0;
+  waist.origin << -robot.com_x * ahead, robot.waist_height + x.waist_z;
+  waist.velocity << v.com - robot.com_x * v.waist_yaw * aside, v.waist_z;
   waist.acceleration << a.com -
                             robot.com_x * (a.waist_yaw * aside - v.waist_yaw * v.waist_yaw * ahead),
-      0;
+      a.waist_z;
   waist.turns = v.waist_yaw * kUp;
   waist.turns_rate = a.waist_yaw * kUp;
   Accelerate(robot, state, waist, q, speed);

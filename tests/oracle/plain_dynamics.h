@@ -24,11 +24,16 @@ struct PlainDynamics {
   std::array<Vector6, 2> acceleration;  ///< of the legs' joints [rad/s²]
   Eigen::Vector3d below_com{0, 0, 0};   ///< where places are seen from, in W [m]
   Eigen::Vector3d force{0, 0, 0};       ///< of the floor on the robot [N]
-  Eigen::Vector3d zmp{0, 0, 0};  ///< where the floor's moment is upright, seen from there [m]
-  double yaw_moment = 0;         ///< that moment [N m]
+  /// Where in the plane z = 0 the floor's moment is upright, seen from there [m].
+  Eigen::Vector3d zmp{0, 0, 0};
+  double yaw_moment = 0;  ///< that moment [N m]
   std::array<std::array<Carried, 6>, 2> carried;
 
   Eigen::Vector2d zmp_in_world() const { return (below_com + zmp).head<2>(); }
+  /// The same in the plane z = h: the place is on a line along the force.
+  Eigen::Vector2d zmp_at(double h) const {
+    return zmp_in_world() + h / force.z() * force.head<2>();
+  }
   /// That motor and gear give at a joint [N m] when the floor pushes the foot by `force` and, about
   /// the ZMP, `moment`.
   double Torque(size_t leg, size_t joint, const Eigen::Vector3d& force,

@@ -121,7 +121,8 @@ bool RayHits(const std::array<Point, 3>& t, const Point& d) {
 
 }  // namespace
 
-PlacedScene::PlacedScene(const PlainScene& scene, const Eigen::Vector3d& center) : center_(center) {
+PlacedScene::PlacedScene(const PlainScene& scene, const Eigen::Vector3d& center)
+    : center_(center), ground_(scene.has_floor, scene.surfaces) {
   for (const PlainObstacle& o : scene.obstacles) {
     Placed& placed = obstacles_.emplace_back();
     placed.name = o.name;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "experiments/verify/min_norm_point.h"
+#include "tests/oracle/plain_ground.h"
 
 namespace halfstep::oracle {
 
@@ -41,19 +42,24 @@ struct PlainScene {
   std::vector<PlainObstacle> obstacles;
   std::vector<std::vector<Eigen::Vector2d>> no_step;  ///< polygons on the floor, in W [m]
   double friction = 0.7;
+  bool has_floor = true;  ///< z = 0 bears
+  std::vector<PlainSurface> surfaces;
+  bool has_levels() const { return !has_floor || !surfaces.empty(); }
 };
 
 /// Writes scene.yaml and the meshes into a folder that exists; returns the path of scene.yaml.
 std::string WriteScene(const PlainScene& scene, const std::string& folder);
 
 /// What stands near a walk, in W: obstacles as convex pieces, where they are at the start. A point
-/// that meets an obstacle at t is asked for AtStart. Meshes as their own triangles, cut in
-/// quadruple precision to a box of some metres, so that far corners cost no digits.
+/// that meets an obstacle at t is asked for AtStart. The ground is no obstacle. Meshes as their own
+/// triangles, cut in quadruple precision to a box of some metres, so that far corners cost no
+/// digits.
 class PlacedScene {
  public:
   /// `center` of the box [m].
   PlacedScene(const PlainScene& scene, const Eigen::Vector3d& center);
 
+  const PlainGround& ground() const { return ground_; }
   size_t size() const { return obstacles_.size(); }
   const std::string& name(size_t obstacle) const { return obstacles_[obstacle].name; }
   /// Moves a point of W with the obstacle, from where this is at t [s] to where it is at the start.
@@ -105,6 +111,7 @@ class PlacedScene {
 
   Eigen::Vector3d center_;
   std::vector<Placed> obstacles_;
+  PlainGround ground_;
 };
 
 }  // namespace halfstep::oracle

@@ -15,7 +15,28 @@ std::string WriteScene(const PlainScene& scene, const std::string& folder) {
   const auto three = [&](const Eigen::Vector3d& v) {
     return "[" + number(v[0]) + ", " + number(v[1]) + ", " + number(v[2]) + "]";
   };
+  const auto polygon = [&](const Polygon& corners) {
+    std::string text;
+    for (const Eigen::Vector2d& p : corners) {
+      text += (text.empty() ? "[" : ", [") + number(p.x()) + ", " + number(p.y()) + "]";
+    }
+    return "    polygon_m: [" + text + "]\n";
+  };
   std::string yaml = "name: drawn\nfriction: " + number(scene.friction) + "\n";
+  if (!scene.has_floor) yaml += "floor: none\n";
+  if (!scene.surfaces.empty()) yaml += "surfaces:\n";
+  for (const PlainSurface& s : scene.surfaces) {
+    yaml += "  - name: " + s.name + "\n";
+    if (!s.polygon.empty()) {
+      yaml += polygon(s.polygon) + "    height_m: " + number(s.height) + "\n";
+      if (s.thickness >= 0) yaml += "    thickness_m: " + number(s.thickness) + "\n";
+      continue;
+    }
+    yaml += "    stairs: {at: {x_m: " + number(s.at.x()) + ", y_m: " + number(s.at.y()) +
+            ", z_m: " + number(s.at.z()) + ", yaw_deg: " + number(s.yaw_deg) +
+            "}, rise_m: " + number(s.rise) + ", run_m: " + number(s.run) +
+            ", width_m: " + number(s.width) + ", count: " + std::to_string(s.count) + "}\n";
+  }
   if (!scene.obstacles.empty()) yaml += "obstacles:\n";
   for (const PlainObstacle& o : scene.obstacles) {
     yaml += "  - name: " + o.name + "\n    ";
@@ -71,12 +92,7 @@ std::string WriteScene(const PlainScene& scene, const std::string& folder) {
   }
   if (!scene.no_step.empty()) yaml += "no_step:\n";
   for (size_t i = 0; i < scene.no_step.size(); ++i) {
-    yaml += "  - name: area" + std::to_string(i) + "\n    polygon_m: [";
-    for (size_t k = 0; k < scene.no_step[i].size(); ++k) {
-      const Eigen::Vector2d& p = scene.no_step[i][k];
-      yaml += (k == 0 ? "[" : ", [") + number(p.x()) + ", " + number(p.y()) + "]";
-    }
-    yaml += "]\n";
+    yaml += "  - name: area" + std::to_string(i) + "\n" + polygon(scene.no_step[i]);
   }
   const std::string path = folder + "/scene.yaml";
   std::ofstream(path) << yaml;

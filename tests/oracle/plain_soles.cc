@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "tests/oracle/plain_robot.h"
+
 namespace halfstep::oracle {
 namespace {
 
@@ -23,6 +25,28 @@ bool CrossingNumberIsOdd(const Polygon& polygon, const Eigen::Vector2d& p) {
 }
 
 }  // namespace
+
+Polygon Touching(const PlainRobot& robot, size_t leg, double height) {
+  const Eigen::Vector2d half = 0.5 * robot.sole_size;
+  Polygon points = {
+      {half.x(), half.y()}, {-half.x(), half.y()}, {-half.x(), -half.y()}, {half.x(), -half.y()}};
+  for (const PlainRobot::Body& body : robot.bodies) {
+    if (body.link != robot.legs[leg].foot_link) continue;
+    for (const Eigen::Vector3d& p : body.points) {
+      const Eigen::Vector3d seen = p - robot.legs[leg].sole;
+      if (seen.z() < height) points.emplace_back(seen.x(), seen.y());
+    }
+  }
+  return points;
+}
+
+Polygon Standing(const Polygon& outline, const Eigen::Vector4d& foot) {
+  Polygon placed;
+  for (const Eigen::Vector2d& p : outline) {
+    placed.push_back(foot.head<2>() + Eigen::Rotation2Dd(foot[3]) * p);
+  }
+  return placed;
+}
 
 double Wedge(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
@@ -87,6 +111,50 @@ double LongestLever(const std::vector<Eigen::Vector2d>& points, const Eigen::Vec
       if (share > 1e-12) lever = std::min(lever, apart / share);
     }
     longest = std::max(longest, lever);
+  }
+  return longest;
+}
+
+double LongestSectionLever(const std::array<Eigen::Vector2d, 4>& left,
+                           const std::array<Eigen::Vector2d, 4>& right) {
+  std::vector<Eigen::Vector2d> edges;
+  for (const auto& sole : {left, right}) {
+    edges.push_back((sole[0] - sole[1]).normalized());
+    edges.push_back((sole[1] - sole[2]).normalized());
+  }
+  // How far the line is inside of a sole along an outward normal.
+  const auto inside = [](const std::array<Eigen::Vector2d, 4>& sole, const Eigen::Vector2d& n) {
+    double farthest = -std::numeric_limits<double>::infinity();
+    for (const Eigen::Vector2d& corner : sole) farthest = std::max(farthest, n.dot(corner));
+    return farthest;
+  };
+  double longest = -std::numeric_limits<double>::infinity();
+  for (const Eigen::Vector2d& u : edges) {
+    const auto lever = [&](double lambda) {
+      double least = std::numeric_limits<double>::infinity();
+      for (const Eigen::Vector2d& edge : edges) {
+        for (const double sign : {-1.0, 1.0}) {
+          const Eigen::Vector2d n(-sign * edge.y(), sign * edge.x());
+          const double depth = (1 - lambda) * inside(left, n) + lambda * inside(right, n);
+          least = std::min(least, depth / std::max(std::abs(n.dot(u)), 0.25));
+        }
+      }
+      return least;
+    };
+    // It is concave in λ: golden section.
+    const double golden = 0.5 * (std::sqrt(5.0) - 1);
+    double low = 0, high = 1, a = 1 - golden, b = golden, at_a = lever(a), at_b = lever(b);
+    longest = std::max({longest, lever(0), lever(1)});
+    while (high - low > 1e-14) {
+      if (at_a > at_b) {
+        high = b, b = a, at_b = at_a;
+        a = high - golden * (high - low), at_a = lever(a);
+      } else {
+        low = a, a = b, at_a = at_b;
+        b = low + golden * (high - low), at_b = lever(b);
+      }
+      longest = std::max({longest, at_a, at_b});
+    }
   }
   return longest;
 }

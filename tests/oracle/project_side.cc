@@ -9,7 +9,7 @@
 namespace halfstep::oracle {
 namespace {
 
-Foothold ToFoothold(const FloorPose& p) { return Foothold::Level({p.x, p.y, p.yaw}); }
+Foothold ToFoothold(const FloorPose& p) { return {{p.x, p.y, p.yaw}, p.z}; }
 
 }  // namespace
 
@@ -27,7 +27,8 @@ HalfStepSequence ToSequence(const WalkPlan& plan) {
                        .foot_delay = plan.foot_delay,
                        .bump_ramp = plan.bump_ramp,
                        .foot_ramp = plan.foot_ramp,
-                       .lift_share = plan.lift_share},
+                       .lift_share = plan.lift_share,
+                       .crouch = plan.crouch},
                       std::make_shared<Lipm>(plan.com_height));
 }
 
@@ -45,9 +46,8 @@ HomotopyParameters ToParameters(const WalkPlan& plan) {
     parameters.of(ParameterFamily::kFootRamp).push_back(plan.foot_ramp_of(i));
     parameters.of(ParameterFamily::kFootDelay).push_back(plan.foot_delay_of(i));
     parameters.of(ParameterFamily::kLiftShare).push_back(plan.lift_share_of(i));
-    // Nothing rises: all of it is on the floor.
-    parameters.of(ParameterFamily::kRiseBegin).push_back(HalfStepShape().rise_begin);
-    parameters.of(ParameterFamily::kRiseEnd).push_back(HalfStepShape().rise_end);
+    parameters.of(ParameterFamily::kRiseBegin).push_back(plan.rise_begin_of(i));
+    parameters.of(ParameterFamily::kRiseEnd).push_back(plan.rise_end_of(i));
     if (i % 2 == 1) continue;
     const FloorPose move = plan.footsteps.empty() ? FloorPose{} : plan.footsteps[i / 2];
     parameters.footstep_xs.push_back(move.x);

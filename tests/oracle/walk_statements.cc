@@ -1,6 +1,8 @@
 // The oracle's statements about feet and legs.
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <memory>
 
 #include "tests/oracle/plain_soles.h"
 #include "tests/oracle/walk_truth.h"
@@ -10,28 +12,26 @@ namespace {
 
 constexpr std::array<const char*, 2> kFeet = {"left foot", "right foot"};
 
-// What of a foot may touch the floor, in the sole's frame: the sole rectangle, and the points of
-// its body that are less than `height` above the sole.
-Polygon Touching(const PlainRobot& robot, size_t leg, double height) {
-  const Eigen::Vector2d half = 0.5 * robot.sole_size;
-  Polygon points = {
-      {half.x(), half.y()}, {-half.x(), half.y()}, {-half.x(), -half.y()}, {half.x(), -half.y()}};
-  for (const PlainRobot::Body& body : robot.bodies) {
-    if (body.link != robot.legs[leg].foot_link) continue;
-    for (const Eigen::Vector3d& p : body.points) {
-      const Eigen::Vector3d seen = p - robot.legs[leg].sole;
-      if (seen.z() < height) points.emplace_back(seen.x(), seen.y());
+// A foot's height over the floor, and the distance of its outline, laid flat at that height, from
+// the ground's solids.
+Bracket FlatFootAbove(const PlainGround& ground, const Polygon& own, const Polygon& both,
+                      const Eigen::Vector4d& place) {
+  Bracket least = Exactly(ground.has_floor() ? place[2] : kNever);
+  for (const bool all : {false, true}) {
+    ConvexSet flat;
+    double reach = 0;
+    for (const Eigen::Vector2d& p : Standing(all ? both : own, place)) {
+      flat.points.emplace_back(p.x(), p.y(), place[2]);
+      reach = std::max(reach, (p - place.head<2>()).norm());
+    }
+    double& bound = all ? least.lower : least.upper;
+    for (const PlainSolid& solid : ground.solids()) {
+      if ((place.head<3>() - solid.center).norm() - reach - solid.radius > bound) continue;
+      const Bracket here = DistanceOf(flat, solid.set);
+      bound = std::min(bound, all ? here.lower : here.upper);
     }
   }
-  return points;
-}
-
-Polygon Standing(const Polygon& outline, const Eigen::Vector4d& foot) {
-  Polygon placed;
-  for (const Eigen::Vector2d& p : outline) {
-    placed.push_back(foot.head<2>() + Eigen::Rotation2Dd(foot[3]) * p);
-  }
-  return placed;
+  return least;
 }
 
 }  // namespace
@@ -59,6 +59,7 @@ void WalkTruth::AddGroundStatements() {
     statements_.push_back({"ground", robot_.bodies[b].name, 3.0,
                            [this, b, on_foot, &far = far_["ground"]](Instant& at, const Stretch&) {
                              if (!at.reaches) return Exactly(-kNever);
+                             if (!scene_.ground().has_floor()) return Exactly(kNever);
                              const double bound = at.centers[b].z() - robot_.bodies[b].radius;
                              if (bound > far) return Exactly(bound);
                              double lowest = kNever;
@@ -70,14 +71,42 @@ void WalkTruth::AddGroundStatements() {
   }
 }
 
+// How far what stands on the ground is inside its level. It rests, so each place is asked once.
+void WalkTruth::AddFootholdStatements() {
+  if (!scene_.ground().has_levels()) return;
+  Polygon both = Touching(robot_, 0, 1e-3);
+  for (const Eigen::Vector2d& p : Touching(robot_, 1, 1e-3)) both.push_back(p);
+  for (size_t foot = 0; foot < 2; ++foot) {
+    const auto known = std::make_shared<std::map<std::array<double, 4>, Bracket>>();
+    statements_.push_back(
+        {"foothold", kFeet[foot], 3.0,
+         [this, foot, both, known, own = Touching(robot_, foot, 1e-9)](Instant& at,
+                                                                       const Stretch& s) {
+           if (s.in_air == static_cast<int>(foot)) return Exactly(kNever);
+           const Eigen::Vector4d& place = at.state.value.feet[foot];
+           const auto [found, fresh] = known->try_emplace({place[0], place[1], place[2], place[3]});
+           if (fresh) {
+             const PlainGround& ground = scene_.ground();
+             found->second = {ground.Inside(Standing(both, place), place[2]),
+                              ground.Inside(Standing(own, place), place[2])};
+           }
+           return found->second;
+         }});
+  }
+}
+
 void WalkTruth::AddFootStatements() {
+  Polygon both = Touching(robot_, 0, kNever);
+  for (const Eigen::Vector2d& p : Touching(robot_, 1, kNever)) both.push_back(p);
   for (int foot = 0; foot < 2; ++foot) {
     const size_t i = static_cast<size_t>(foot);
     const auto swings = [foot](const Stretch& s) { return s.in_air == foot; };
-    statements_.push_back({"floor", kFeet[i], 2.0, [=](Instant& at, const Stretch& s) {
-                             return Exactly(swings(s) && s.moves ? at.state.value.feet[i][2]
-                                                                 : kNever);
-                           }});
+    statements_.push_back(
+        {"floor", kFeet[i], 2.0,
+         [=, this, own = Touching(robot_, i, kNever)](Instant& at, const Stretch& s) {
+           if (!swings(s) || !s.moves) return Exactly(kNever);
+           return FlatFootAbove(scene_.ground(), own, both, at.state.value.feet[i]);
+         }});
     const Demands& d = demands_;
     statements_.push_back(
         {"foot_speed", kFeet[i], 40.0, [=, limit = d.foot_speed](Instant& at, const Stretch& s) {
@@ -94,7 +123,7 @@ void WalkTruth::AddFootStatements() {
     statements_.push_back({"landing_speed", kFeet[i], 60.0,
                            [i, limit = demands_.landing_speed](Instant& at, const Stretch& s) {
                              if (s.in_air != static_cast<int>(i)) return Exactly(kNever);
-                             const double z = at.state.value.feet[i][2],
+                             const double z = at.state.value.feet[i][2] - s.lands_at,
                                           sinks = -at.state.rate.feet[i][2];
                              return Exactly((z > 0.01 ? 100 * z * limit : limit) - sinks);
                            }});

@@ -45,10 +45,12 @@ WalkTruth::WalkTruth(const PlainRobot& robot, const ClosedFormWalk& walk, const 
     leg_link_.push_back(of);
   }
   AddFootStatements();
+  AddFootholdStatements();
   AddGroundStatements();
   AddLegStatements();
   AddBodyStatements();
   AddObstacleStatements();
+  AddSolidStatements();
   AddDynamicStatements();
   Demand(demands);
 }
@@ -62,10 +64,10 @@ WalkTruth::Instant& WalkTruth::At(double t, const std::array<Vector6, 2>& guess)
   const auto &x = at.state.value, &v = at.state.rate;
   // The CoM is com_x ahead of the waist's origin.
   const double c = std::cos(x.waist_yaw), s = std::sin(x.waist_yaw);
-  at.X_WB = Upright(x.com.x() - c * robot_.com_x, x.com.y() - s * robot_.com_x, robot_.waist_height,
-                    x.waist_yaw);
+  at.X_WB = Upright(x.com.x() - c * robot_.com_x, x.com.y() - s * robot_.com_x,
+                    robot_.waist_height + x.waist_z, x.waist_yaw);
   const Eigen::Vector3d waist_velocity(v.com.x() + s * robot_.com_x * v.waist_yaw,
-                                       v.com.y() - c * robot_.com_x * v.waist_yaw, 0);
+                                       v.com.y() - c * robot_.com_x * v.waist_yaw, v.waist_z);
   at.reaches = true;
   for (int leg = 0; leg < 2; ++leg) {
     const size_t i = static_cast<size_t>(leg);
@@ -166,6 +168,29 @@ void WalkTruth::AddObstacleStatements() {
              apart.lower -= off;
              apart.upper -= off;
              return apart;
+           }});
+    }
+  }
+}
+
+// All of the robot from the ground's solids, but a foot from those that are not above its sole.
+void WalkTruth::AddSolidStatements() {
+  for (size_t b = 0; b < robot_.bodies.size(); ++b) {
+    const auto [leg, j] = leg_link_[b];
+    for (const PlainSolid& solid : scene_.ground().solids()) {
+      statements_.push_back(
+          {"clearance", robot_.bodies[b].name + " - " + solid.name, 3.0,
+           [this, b, foot = j == 5 ? leg : -1, &solid, &far = far_["clearance"]](Instant& at,
+                                                                                 const Stretch&) {
+             if (!at.reaches) return Exactly(-kNever);
+             if (foot >= 0 &&
+                 solid.top <= at.X_WSole[static_cast<size_t>(foot)].translation().z() + 1e-8) {
+               return Exactly(kNever);
+             }
+             const double quick =
+                 (at.centers[b] - solid.center).norm() - robot_.bodies[b].radius - solid.radius;
+             if (quick > far) return Exactly(quick);
+             return DistanceOf(BodyAt(at, b), solid.set);
            }});
     }
   }

@@ -23,12 +23,16 @@ inline constexpr double kNever = std::numeric_limits<double>::infinity();
 /// A number that is known.
 inline Bracket Exactly(double value) { return {value, value}; }
 
+/// Where a control lets the oracle take soles for level that are not.
+enum class ForgetsHeights { kNowhere, kInShadows, kInFriction, kInLoads };
+
 /// What is demanded, by the names that margins have in YAML; and limits.
 struct Demands {
   std::map<std::string, double> margin;
   double foot_speed = 1, foot_yaw_rate = 2, joint_speed_scale = 1;
   double landing_speed = 1;  ///< in the last centimetre [m/s]
   double friction = 0.7;     ///< of the scene
+  ForgetsHeights forgets = ForgetsHeights::kNowhere;
 };
 
 /// A margin by the oracle. Where a number is only bracketed (distances), `value` is its upper end,
@@ -102,14 +106,17 @@ class WalkTruth {
                        const Stretch& stretch, const PlainTube& tube, Instant& plan,
                        Instant& moved) const;
   void AddFootStatements();
+  void AddFootholdStatements();
   void AddGroundStatements();
   void AddLegStatements();
   void AddBodyStatements();
   void AddObstacleStatements();
+  void AddSolidStatements();
   void AddDynamicStatements();
   const PlainDynamics& DynamicsOf(Instant& instant) const;
   std::array<Eigen::Vector3d, 2> FloorOn(size_t foot, Instant& at, const Stretch& stretch) const;
   double FrictionNeeded(Instant& at, const Stretch& stretch) const;
+  std::vector<Eigen::Vector2d> SeenAlongForce(Instant& at, const Stretch& stretch) const;
   std::vector<Eigen::Vector2d> SupportCorners(const WalkState& state, const Stretch& stretch) const;
   double Demanded(const std::string& family) const;
   void Sample(const Statement& statement, const Stretch& stretch, double rate, double a,
