@@ -98,9 +98,9 @@ std::vector<HalfStepConfig> Table(const HalfStepConfig& own, double highest, dou
     form.duration = std::min(6.0, own.duration * longer);
     form.zmp_shift = own.zmp_shift * form.duration / own.duration;
     // In millimetres and steps of 0.1 s, as one writes them.
-    form.duration = 0.1 * std::round(10.0 * form.duration);
-    form.via_height = 1e-3 * std::ceil(1e3 * (highest + above * scale) - 1e-6);
-    form.crouch = std::max(own.crouch, 1e-3 * std::round(1e3 * crouch * scale));
+    form.duration = std::round(10.0 * form.duration) / 10.0;
+    form.via_height = std::ceil(1e3 * (highest + above * scale) - 1e-6) / 1e3;
+    form.crouch = std::max(own.crouch, std::round(1e3 * crouch * scale) / 1e3);
     form.foot_delay = delay;
     form.lift_share = lift;
     form.rise_begin = begin;
