@@ -36,8 +36,9 @@ struct BeforeStairs {
 
 StepSet SetOf(const ExperimentConfig& config) {
   StepSet set{.prototype = PrototypeOf(config), .placements = {}, .on_levels = true};
-  for (const double x : {0.25, 0.28, 0.3, 0.34}) {
-    for (const double y : {-0.17, -0.2}) set.placements.push_back(Foothold::Level({x, y, 0.0}));
+  for (const double x : {0.25, 0.28, 0.3}) {
+    for (const double y : {-0.17, -0.2, -0.45})
+      set.placements.push_back(Foothold::Level({x, y, 0.0}));
   }
   return set;
 }
