@@ -56,10 +56,14 @@ void PrintPlan(const PlannedWalk& walk) {
   }
   std::cout << "# " << walk.config.planner.name << ": " << plan.sentence << ", " << plan.nodes
             << " nodes, " << plan.queries << " queries of " << walk.half_steps.size
-            << " half-steps, effort " << std::fixed << std::setprecision(3) << plan.effort() << ", "
-            << std::setprecision(1) << 1e3 * plan.time << " ms\n"
+            << " half-steps, effort " << std::fixed << std::setprecision(3)
+            << plan.effort() + walk.proof_effort << ", " << std::setprecision(1) << 1e3 * plan.time
+            << " ms\n"
             << std::defaultfloat << std::setprecision(6)
             << NotCoveredText(walk.not_covered, "--json", "# ");
+  if (!walk.changed_half_step.empty()) {
+    std::cout << "half_step: {" << walk.changed_half_step << "}\n";
+  }
   std::vector<FootstepConfig> footsteps = walk.config.footsteps;
   std::cout << WriteYaml([&](Fields& fields) {
     fields.List("footsteps", {}, &footsteps, [](Fields& f, FootstepConfig* step) {

@@ -126,6 +126,11 @@ void DeclarePlanner(Fields& fields, PlannerConfig* c) {
                .listed_by = "halfstep list planners"});
   fields.Text("cost", &c->cost,
               {.meaning = "of a plan; the last is an estimate", .choices = NamesOf(kCosts)});
+  fields.Text("free_by", &c->free_by,
+              {.meaning = "what says that a half-step is free: baked volumes, or its proof",
+               .choices = {"volumes", "certificates"},
+               .otherwise = "certificates on levels where nothing moves, else volumes",
+               .left_out_empty = true});
   fields.Integer("max_nodes", &c->max_nodes,
                  {.meaning = "the search ends after them", .min = 0, .max = 1000000000});
   fields.Integer("unimproved_nodes", &c->unimproved_nodes,

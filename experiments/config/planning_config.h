@@ -28,6 +28,7 @@ struct GoalConfig {
 struct PlannerConfig {
   std::string name = "rrt";       ///< one of known.Names()
   std::string cost = "steps";     ///< a name of CostKind
+  std::string free_by = {};       ///< volumes or certificates; "": as the ground wants it
   StepCost estimate;              ///< its numbers; Cost() sets its kind by `cost`
   int max_nodes = 100000;         ///< ends the search
   int unimproved_nodes = 500;     ///< ends after these without a better plan; 0: at the first plan

@@ -244,7 +244,7 @@ void ExperimentRun::Write(RunFolder* folder) const {
   folder->Write("config.yaml", resolved);
   if (planned_) {
     folder->Write("plan.json", PlanJson(*planned_));
-    if (!planned_->plan.footsteps.empty()) {
+    if (planned_->half_steps.cached.volumes && !planned_->plan.footsteps.empty()) {
       folder->Write("swept_volumes.json", PlanVolumesJson(*planned_, experiment_->sequence));
     }
   }

@@ -5,6 +5,9 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "experiments/run/certificate_query.h"
+#include "experiments/run/ground_steps.h"
+#include "experiments/run/half_step_forms.h"
 #include "experiments/run/missed_demands_text.h"
 #include "experiments/run/plan_inputs.h"
 #include "experiments/tables/not_covered_json.h"
@@ -106,6 +109,13 @@ std::string MissedInPlace(const RobotModel& robot, const Scene& scene,
   return text;
 }
 
+[[noreturn]] void ThrowNoHalfStep(const RobotModel& robot, const ExperimentConfig& config) {
+  throw InputError(
+      {std::string("step_set: no place of the grid keeps the demanded margins (valid: a grid "
+                   "beside the support foot, margins that the robot meets)") +
+       MissedInPlace(robot, Scene{}, config)});
+}
+
 }  // namespace
 
 BakedHalfSteps BakeHalfSteps(const RobotModel& robot, const ExperimentConfig& config,
@@ -130,12 +140,7 @@ BakedHalfSteps BakeHalfSteps(const RobotModel& robot, const ExperimentConfig& co
   baked.set_wall = set_done - begin;
   baked.size = set.size();
   if (hooks.stop.stop_requested()) return baked;
-  if (set.size() == 0) {
-    throw InputError(
-        {std::string("step_set: no place of the grid keeps the demanded margins (valid: a grid "
-                     "beside the support foot, margins that the robot meets)") +
-         MissedInPlace(robot, Scene{}, config)});
-  }
+  if (set.size() == 0) ThrowNoHalfStep(robot, config);
   SweptVolumeOptions options = config.swept_volumes.options;
   const MarginLimits limits = Demandable(config.smoothing.limits, robot);
   // One distance for all bodies, as far as any of them may be from its place.
@@ -184,53 +189,40 @@ void ExplainNoPlan(const Place& place, const MarginEvaluator& evaluator, Planned
   plan.sentence = looked + plan.sentence;
 }
 
-}  // namespace
+// Whether half-steps are called free by their proofs.
+bool ByCertificates(const ExperimentConfig& config, const Scene& scene) {
+  if (!config.planner.free_by.empty()) return config.planner.free_by == "certificates";
+  return HasLevels(*scene.ground) && !AnythingMoves(scene);
+}
 
-PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
-                     const PlanningHooks& hooks) {
-  HALFSTEP_CHECK(config.has_goal, "no goal");
-  CheckPlaces(place.scene);  // before minutes of baking
+// A search, with what differs between what says that half-steps are free.
+struct Search {
+  const StepSet& set;
+  const HalfStepQuery& query;
+  std::function<double(const Pose2&, double)> ground = {};  // as in PlanRequest
+  std::function<double()> effort = {};                      // of the query; empty: as is counted
+};
+
+// Plans with walk->config and writes into it.
+void SearchWith(const Search& search, const Place& place, const PlanningHooks& hooks,
+                PlannedWalk* walk) {
+  const ExperimentConfig& config = walk->config;
   const Ground& ground = *place.scene.ground;
-  const auto planner =
-      config.planner.known.Make(config.planner.name, place.scene, config.planner.options);
-  if (HasLevels(ground) && !planner->knows_levels()) {
-    throw InputError({"planner.name: " + Quote(config.planner.name) +
-                      " plans at one height only, and the scene's ground has levels (valid: rrt, "
-                      "astar, astar/classic)"});
-  }
-  const auto goal_level = ChosenLevel(ground, "goal", {.name = config.goal.level});
-  PlannedWalk walk{.config = config,
-                   .plan = {},
-                   .half_steps = {},
-                   .not_covered = NotCoveredBy(place.robot, place.scene, config.smoothing.limits)};
-  walk.half_steps = BakeHalfSteps(place.robot, config, ground, hooks);
-  if (!walk.half_steps.cached.volumes) {
-    walk.plan.status = PlanStatus::kInterrupted;
-    walk.plan.sentence = "interrupted while half-steps were baked";
-    return walk;
-  }
-  if (const auto on_area = FootholdOnNoStep({config, place.robot, place.scene, {}})) {
-    walk.plan.status = PlanStatus::kStartBlocked;
-    walk.plan.sentence = *on_area;
-    return walk;
-  }
-  const SweptVolumes& volumes = *walk.half_steps.cached.volumes;
-  const MarginLimits limits = Demandable(config.smoothing.limits, place.robot);
-  const SweptVolumeQuery query(
-      volumes, place.robot.sole_outline, place.scene, limits.demanded_of(MarginFamily::kNoStep),
-      std::numeric_limits<double>::infinity(), limits.demanded_of(MarginFamily::kFoothold));
   const HalfStepCertifier certifier(place.robot, place.scene, config);
   const MarginEvaluator evaluator(place.robot, place.scene, config.smoothing.limits);
   const CertifiedFeasibility test(evaluator, config.smoothing.certification);
   const HalfStep prototype = PrototypeOf(config);
 
-  PlanRequest request{.start = StartOf(config, place.robot, *place.scene.ground),
+  PlanRequest request{.start = StartOf(config, place.robot, ground),
                       .goal = config.goal.Region(),
-                      .set = volumes.set,
-                      .query = query,
-                      .cost = config.planner.Cost()};
-  if (goal_level) request.goal.height = goal_level->height;
-  if (HasLevels(ground)) {
+                      .set = search.set,
+                      .query = search.query,
+                      .cost = config.planner.Cost(),
+                      .ground = search.ground};
+  if (const auto level = ChosenLevel(ground, "goal", {.name = config.goal.level})) {
+    request.goal.height = level->height;
+  }
+  if (HasLevels(ground) && !search.ground) {
     for (const GroundLevel& level : ground.Levels()) request.levels.push_back(level.height);
     std::ranges::sort(request.levels);
   }
@@ -248,12 +240,123 @@ PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
   request.max_refusals = config.planner.max_refusals;
   request.clock = SteadySeconds;
   request.stop = StopOf(config.planner, hooks);
+  if (search.effort) {
+    request.stop = AnyOf({request.stop, [&](const PlanProgress& progress) {
+                            return progress.effort() + search.effort() >= config.planner.effort
+                                       ? StopReason::kBudget
+                                       : StopReason::kGoOn;
+                          }});
+  }
   std::mt19937_64 random(static_cast<std::uint64_t>(config.seed));
-  walk.plan = planner->Plan(request, random);
-  if (walk.plan.status == PlanStatus::kSolved) {
-    walk.config = WithFootsteps(config, request.start, walk.plan.footsteps, place);
+  const auto planner =
+      config.planner.known.Make(config.planner.name, place.scene, config.planner.options);
+  walk->plan = planner->Plan(request, random);
+  if (search.effort) walk->proof_effort += search.effort();
+  if (walk->plan.status == PlanStatus::kSolved) {
+    walk->config = WithFootsteps(config, request.start, walk->plan.footsteps, place);
   } else {
-    ExplainNoPlan(place, evaluator, &walk);
+    ExplainNoPlan(place, evaluator, walk);
+  }
+}
+
+// Whether a foot starts where none may stand; then the walk says so.
+bool StartsOnNoStep(const Place& place, PlannedWalk* walk) {
+  const auto on_area = FootholdOnNoStep({walk->config, place.robot, place.scene, {}});
+  if (!on_area) return false;
+  walk->plan.status = PlanStatus::kStartBlocked;
+  walk->plan.sentence = *on_area;
+  return true;
+}
+
+// With half-steps of one form that are called free by their proofs.
+void PlanByCertificates(const Place& place, const PlanningHooks& hooks, PlannedWalk* walk) {
+  const double begin = SteadySeconds();
+  const StepSet set = StepsByGround(place.robot, walk->config);
+  walk->half_steps.size = set.size();
+  walk->half_steps.set_wall += SteadySeconds() - begin;
+  if (set.size() == 0) ThrowNoHalfStep(place.robot, walk->config);
+  const CertificateQuery query(
+      set, MarginEvaluator(place.robot, place.scene, walk->config.smoothing.limits),
+      walk->config.smoothing.certification);
+  SearchWith(
+      {.set = set,
+       .query = query,
+       .ground = [&query](const Pose2& X_WF, double from) { return query.HeightAt(X_WF, from); },
+       .effort = [&query] { return query.work().effort(); }},
+      place, hooks, walk);
+}
+
+// The same with the first form that has a plan.
+void PlanByForms(const Place& place, const PlanningHooks& hooks, PlannedWalk* walk) {
+  if (StartsOnNoStep(place, walk)) return;
+  const ExperimentConfig config = walk->config;
+  const double begin = SteadySeconds();
+  const HalfStepForms found = FormsFor(config, place);
+  walk->half_steps.set_wall = SteadySeconds() - begin;
+  for (const HalfStepConfig& form : found.forms) {
+    if (hooks.stop.stop_requested()) break;
+    walk->config = config;
+    walk->config.half_step = form;
+    walk->config.planner.effort = config.planner.effort / static_cast<double>(found.forms.size());
+    PlanByCertificates(place, hooks, walk);
+    walk->config.planner.effort = config.planner.effort;
+    if (walk->plan.status == PlanStatus::kSolved) {
+      walk->changed_half_step = Differences(form, config.half_step);
+      if (!walk->changed_half_step.empty()) {
+        walk->plan.sentence += ", half_step: {" + walk->changed_half_step + "}";
+      }
+      return;
+    }
+  }
+  for (const std::string& sentence : found.too_high) walk->plan.sentence += "; " + sentence;
+}
+
+// With half-steps that are called free by their swept volumes.
+void PlanByVolumes(const Place& place, const PlanningHooks& hooks, PlannedWalk* walk) {
+  walk->half_steps = BakeHalfSteps(place.robot, walk->config, *place.scene.ground, hooks);
+  if (!walk->half_steps.cached.volumes) {
+    walk->plan.status = PlanStatus::kInterrupted;
+    walk->plan.sentence = "interrupted while half-steps were baked";
+    return;
+  }
+  if (StartsOnNoStep(place, walk)) return;
+  const SweptVolumes& volumes = *walk->half_steps.cached.volumes;
+  const MarginLimits limits = Demandable(walk->config.smoothing.limits, place.robot);
+  const SweptVolumeQuery query(
+      volumes, place.robot.sole_outline, place.scene, limits.demanded_of(MarginFamily::kNoStep),
+      std::numeric_limits<double>::infinity(), limits.demanded_of(MarginFamily::kFoothold));
+  SearchWith({.set = volumes.set, .query = query}, place, hooks, walk);
+}
+
+}  // namespace
+
+PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
+                     const PlanningHooks& hooks) {
+  HALFSTEP_CHECK(config.has_goal, "no goal");
+  CheckPlaces(place.scene);  // before minutes of baking
+  const Ground& ground = *place.scene.ground;
+  const auto planner =
+      config.planner.known.Make(config.planner.name, place.scene, config.planner.options);
+  if (HasLevels(ground) && !planner->knows_levels()) {
+    throw InputError({"planner.name: " + Quote(config.planner.name) +
+                      " plans at one height only, and the scene's ground has levels (valid: rrt, "
+                      "astar, astar/classic)"});
+  }
+  ChosenLevel(ground, "goal", {.name = config.goal.level});
+  const bool by_certificates = ByCertificates(config, place.scene);
+  if (by_certificates && AnythingMoves(place.scene)) {
+    throw InputError(
+        {"planner.free_by: a proof of a half-step by itself does not say when it is "
+         "executed, and obstacles of the scene move (valid: volumes)"});
+  }
+  PlannedWalk walk{.config = config,
+                   .plan = {},
+                   .half_steps = {},
+                   .not_covered = NotCoveredBy(place.robot, place.scene, config.smoothing.limits)};
+  if (by_certificates) {
+    PlanByForms(place, hooks, &walk);
+  } else {
+    PlanByVolumes(place, hooks, &walk);
   }
   return walk;
 }
@@ -284,7 +387,7 @@ std::string PlanJson(const PlannedWalk& walk) {
       {"elements", plan.elements},
       {"nodes", plan.nodes},
       {"queries", plan.queries},
-      {"effort", plan.effort()},
+      {"effort", plan.effort() + walk.proof_effort},
       {"refusals", plan.refusals},
       {"half_steps", walk.half_steps.size},
       {"baked", walk.half_steps.cached.baked},

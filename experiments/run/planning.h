@@ -54,7 +54,11 @@ struct PlannedWalk {
   /// Without a plan: what start and goal may have wrong (LookAtGoal), which `plan.sentence` begins
   /// with.
   std::vector<std::string> inputs = {};
-  BakedHalfSteps half_steps;                 ///< the set that was searched, with its swept volumes
+  /// The set that was searched, with its swept volumes where these said what is free.
+  BakedHalfSteps half_steps;
+  /// The keys of half_step that differ from the config's, since its own do not cross the ground.
+  std::string changed_half_step = {};
+  double proof_effort = 0.0;  ///< of half-steps that were called free by proofs (Work::effort)
   std::vector<NotCovered> not_covered = {};  ///< what no proof behind the plan speaks of
 };
 

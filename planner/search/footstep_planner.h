@@ -49,8 +49,12 @@ struct PlanRequest {
   const HalfStepQuery& query;  ///< of the same set
   StepCost cost = {};          ///< what is minimized
   /// Heights of the ground's levels, ascending, on one of which each sole stands [m]. Empty: all is
-  /// at the height of the start.
+  /// at the height of the start, unless there is `ground`.
   std::vector<double> levels = {};
+  /// In place of `levels`, where elements have no height of their own but land on the ground under
+  /// them: the height [m] at which the ground bears a sole at X_WF, seen from above, for who stands
+  /// at the height `from` [m]; NaN: it bears none there. Empty: heights are those of the set.
+  std::function<double(const Pose2& X_WF, double from)> ground = {};
   /// Supporting soles' centres stay inside [m]. None: 2 m around the start and the goal.
   std::optional<Eigen::AlignedBox2d> workspace = {};
   /// Whether an up half-step from the start, which is in no set, is free: its support sole stands

@@ -69,11 +69,17 @@ bool Follow(const Unrolled& path, size_t from, StepState state, StepGraph* graph
     graph->Landings(state, &landings);
     order.clear();
     for (int k = 0; k < graph->size(); ++k) {
-      const Foothold& X_WF = Nth(landings, k);
-      if (X_WF.height != path.states[j].X_WS.height) continue;
+      const Foothold& old = path.states[j].X_WS;
+      Foothold& X_WF = Nth(landings, k);
+      constexpr double kNear = 0.15;  // [m] heights of farther ones are not looked up
+      if (graph->looks_up_heights()) {
+        if (StateDistance(X_WF.Planar(), old.Planar(), true) > kNear) continue;
+        X_WF = graph->Settled(state, X_WF);
+      }
+      if (X_WF.height != old.height) continue;
       if (last && !graph->IsGoal(state, X_WF)) continue;
       if (!last && !graph->workspace().contains(X_WF.Planar().position())) continue;
-      order.emplace_back(StateDistance(X_WF.Planar(), path.states[j].X_WS.Planar(), true), k);
+      order.emplace_back(StateDistance(X_WF.Planar(), old.Planar(), true), k);
     }
     std::sort(order.begin(), order.end());
     constexpr size_t kTries = 10;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "wpg/check.h"
@@ -34,7 +35,8 @@ StepGraph::StepGraph(const PlanRequest& request, std::vector<int> elements)
       costs_(Chosen(request.cost.OfElements(request.set), elements_)),
       reach_(request.set, elements_, request.cost.OfElements(request.set)),
       workspace_(request.workspace.value_or(DefaultWorkspace(request))) {
-  const bool one_level = request.levels.empty();
+  const bool level_set = request.levels.empty();
+  const bool one_level = level_set && !request.ground;
   HALFSTEP_CHECK(!one_level || request.start[0].height == request.start[1].height,
                  "the soles stand at " << request.start[0].height << " m and "
                                        << request.start[1].height << " m");
@@ -43,7 +45,7 @@ StepGraph::StepGraph(const PlanRequest& request, std::vector<int> elements)
       "on one foot at " << request.in_air->X_WS.height << " m");
   for (Side support : {Side::kLeft, Side::kRight}) {
     for (int i : elements_) {
-      if (one_level) Nth(request.set.placements, i).CheckLevel();
+      if (level_set) Nth(request.set.placements, i).CheckLevel();
       Nth(placements_, Index(support)).push_back(request.set.Placement(i, support));
     }
   }
@@ -76,7 +78,7 @@ double StepGraph::OnLevel(double height) const {
 
 Foothold StepGraph::Landing(const StepState& from, int k) const {
   Foothold X_WF = from.X_WS * Nth(Nth(placements_, Index(from.support)), k);
-  X_WF.height = OnLevel(X_WF.height);
+  X_WF.height = looks_up_heights() ? HeightAt(X_WF.Planar(), from) : OnLevel(X_WF.height);
   return X_WF;
 }
 
@@ -86,7 +88,8 @@ void StepGraph::Landings(const StepState& from, std::vector<Foothold>* X_WF) con
   for (const Foothold& X_SF : Nth(placements_, Index(from.support))) {
     X_WF->push_back({{from.X_WS.x + c * X_SF.x - s * X_SF.y, from.X_WS.y + s * X_SF.x + c * X_SF.y,
                       from.X_WS.yaw + X_SF.yaw},
-                     OnLevel(from.X_WS.height + X_SF.height)});
+                     looks_up_heights() ? std::numeric_limits<double>::quiet_NaN()
+                                        : OnLevel(from.X_WS.height + X_SF.height)});
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -17,7 +18,8 @@ namespace halfstep {
 class StepGraph {
  public:
   /// Uses only `elements` of the set. The request is borrowed. Precondition: where the request has
-  /// no levels, all is at one height (std::logic_error).
+  /// neither levels nor ground, all is at one height, and with ground the elements are
+  /// (std::logic_error).
   StepGraph(const PlanRequest& request, std::vector<int> elements);
 
   /// Indices into the set; k counts in this list.
@@ -34,14 +36,21 @@ class StepGraph {
   std::vector<StepState> FreeStarts() const;
 
   /// Where element k lands from a state, X_WF, at the exact height of the level where there is one;
-  /// the state after its up half-step.
+  /// the height is NaN where PlanRequest::ground bears no sole there.
   Foothold Landing(const StepState& from, int k) const;
   /// The state after that landing and its up half-step.
   StepState After(const StepState& from, int k) const {
     return {Landing(from, k), Opposite(from.support)};
   }
-  /// Landing() of all elements at once: exactly the same poses.
+  /// Landing() of all elements at once: exactly the same poses, but with PlanRequest::ground, where
+  /// heights are NaN until they are looked up, by Settled().
   void Landings(const StepState& from, std::vector<Foothold>* X_WF) const;
+  /// Whether Landings() leaves heights out.
+  bool looks_up_heights() const { return static_cast<bool>(request_.ground); }
+  /// One of Landings() from a state, with its height.
+  Foothold Settled(const StepState& from, const Foothold& X_WF) const {
+    return looks_up_heights() ? Foothold(X_WF.Planar(), HeightAt(X_WF.Planar(), from)) : X_WF;
+  }
 
   /// Whether a half-step of element k is free; a forbidden down half-step is not.
   bool DownIsFree(const StepState& from, int k);
@@ -63,8 +72,10 @@ class StepGraph {
   bool IsForbidden(const StepState& from, int k) const;  ///< whether Forbid() was called so
   std::int64_t queries() const { return queries_; }      ///< of half-steps, so far
 
-  /// Whether there is a level at that height [m], somewhere; true where all is at one height.
+  /// Whether there is a level at that height [m], somewhere; true where all is at one height. With
+  /// PlanRequest::ground: whether the height was found.
   bool IsLevel(double height) const {
+    if (looks_up_heights()) return !std::isnan(height);
     return request_.levels.empty() || std::ranges::binary_search(request_.levels, height);
   }
   /// Whether the ground bears a sole there (HalfStepQuery::Bears).
@@ -73,6 +84,10 @@ class StepGraph {
  private:
   // A height, or that of the level that it is of.
   double OnLevel(double height) const;
+  // By PlanRequest::ground.
+  double HeightAt(const Pose2& X_WF, const StepState& from) const {
+    return request_.ground(X_WF, from.X_WS.height);
+  }
 
   struct Edge {
     StepState from;

@@ -65,7 +65,6 @@ class WeightedSearch {
   // Of the edge from a node that lands at X_WF.
   Promise Promises(const Node& node, int k, const Foothold& X_WF) const {
     const double cost = node.cost + graph_.cost(k);
-    if (!graph_.IsLevel(X_WF.height)) return {0.0, 0.0, false};
     if (graph_.IsGoal(node.state, X_WF)) return {cost, 0.0, cost < monitor_.best_cost()};
     const StepState after{X_WF, Opposite(node.state.support)};
     if (!graph_.workspace().contains(X_WF.Planar().position())) return {0.0, 0.0, false};
@@ -83,7 +82,8 @@ class WeightedSearch {
     promises_.clear();
     for (int k = 0; k < graph_.size(); ++k) {
       const Foothold& X_WF = Nth(landings_, k);
-      promises_.push_back(Promises(node, k, X_WF));
+      const bool may_bear = graph_.looks_up_heights() || graph_.IsLevel(X_WF.height);
+      promises_.push_back(may_bear ? Promises(node, k, X_WF) : Promise{0.0, 0.0, false});
       if (promises_.back().wanted) node.order.push_back(static_cast<std::uint32_t>(k));
     }
     std::sort(node.order.begin(), node.order.end(), [this](std::uint32_t a, std::uint32_t b) {
@@ -96,13 +96,15 @@ class WeightedSearch {
 
   void Enqueue(int index, int rank) {
     Node& node = Nth(nodes_, index);
-    if (rank >= static_cast<int>(node.order.size())) {
-      node.order = {};
+    for (; rank < static_cast<int>(node.order.size()); ++rank) {
+      const int k = Nth(node.order, rank);
+      const Foothold X_WF = graph_.Landing(node.state, k);
+      if (!graph_.IsLevel(X_WF.height)) continue;
+      const Promise promise = Promises(node, k, X_WF);
+      open_.push({promise.key, promise.guess, index, rank});
       return;
     }
-    const int k = Nth(node.order, rank);
-    const Promise promise = Promises(node, k, graph_.Landing(node.state, k));
-    open_.push({promise.key, promise.guess, index, rank});
+    node.order = {};
   }
 
   // Takes the edge if it is free; whether it ended in a plan.

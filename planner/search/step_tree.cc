@@ -129,7 +129,7 @@ StepTree::Growth StepTree::Grow(const TreeSample& sample) {
     if (*best == kInfinity) break;
     *best = kInfinity;
     const auto k = static_cast<int>(best - distances_.begin());
-    switch (Try(index, k, Nth(landings_, k))) {
+    switch (Try(index, k, graph_.Settled(from, Nth(landings_, k)))) {
       case Edge::kUseless:
         break;
       case Edge::kBlocked:

@@ -14,6 +14,7 @@
 #include "experiments/replay/run_replay.h"
 #include "experiments/replay/simulated_robot.h"
 #include "smoothing/walk/superposed_walk.h"
+#include "tests/experiments/child_process.h"
 #include "tests/refusal_of.h"
 #include "wpg/nth.h"
 
@@ -30,10 +31,6 @@ constexpr double kOneDegree = M_PI / 180;
 
 #define SKIP_WITHOUT_SIMULATION() \
   if (!WhyNoSimulation().empty()) GTEST_SKIP() << WhyNoSimulation()
-
-std::string Shipped(const std::string& config) {
-  return HALFSTEP_SOURCE_DIR "/experiments/configs/" + config + ".yaml";
-}
 
 // A prism with its top at `top`, and this outline seen from above.
 GroundSolid Prism(const Eigen::Matrix2Xd& polygon, double top) {
@@ -61,7 +58,7 @@ class ReplayLevelsTest : public testing::Test {
  protected:
   // Of its first `seconds`, every 5 ms.
   std::vector<TrajectoryRow> Walk(const std::string& config, double seconds) const {
-    const Experiment experiment = Prepare(LoadConfig(Shipped(config), {}));
+    const Experiment experiment = Prepare(LoadConfig(ShippedConfig(config), {}));
     const SuperposedWalk walk(experiment.sequence, PlannedMotion(experiment.sequence));
     std::vector<TrajectoryRow> rows;
     for (int i = 0; i <= std::lround(seconds / 0.005); ++i) {
@@ -91,7 +88,7 @@ class ReplayLevelsTest : public testing::Test {
     return Play(robot, motion, setup.PlayOf(robot, motion));
   }
   static SimulatedGround GroundOf(const std::string& config) {
-    return ObstaclesOf(Prepare(LoadConfig(Shipped(config), {})).scene).ground;
+    return ObstaclesOf(Prepare(LoadConfig(ShippedConfig(config), {})).scene).ground;
   }
 
   const WholeRobot whole_ = LoadWholeRobot((RobotsFolder() / "hrp2.yaml").string());

@@ -83,6 +83,27 @@ PlanResult PlanOn(const Ground& ground, const StepSet& set, const std::string& p
   return Planners::Standard().Make(planner, {})->Plan(request, random);
 }
 
+// The same for level elements that land on the ground under them.
+class GroundQuery : public HalfStepQuery {
+ public:
+  GroundQuery(const StepSet& set, const Ground& ground) : set_(set), ground_(ground) {}
+  double HeightAt(const Pose2& X_WF, double from) const {
+    const auto level = ground_.LevelUnder(kOutline, X_WF, from + 0.2);
+    return level && level->height >= from - 0.2 ? level->height
+                                                : std::numeric_limits<double>::quiet_NaN();
+  }
+  bool DownIsFree(int i, Side support, const Foothold& X_WS) const override {
+    const Pose2 X_WF = (X_WS * set_.Placement(i, support)).Planar();
+    return std::isfinite(HeightAt(X_WF, X_WS.height));
+  }
+  bool UpIsFree(int, Side, const Foothold&) const override { return true; }
+  bool Bears(const Foothold& X_WF) const override { return std::isfinite(X_WF.height); }
+
+ private:
+  const StepSet& set_;
+  const Ground& ground_;
+};
+
 TEST(RisesBetween, AreTheDifferencesOfHeightWithZeroFirst) {
   EXPECT_EQ(RisesBetween({0.0}, 0.3), std::vector<double>{0.0});
   const double r = 0.1;
@@ -109,6 +130,34 @@ TEST(StepSetOnLevels, HasThePlacesOfEachRise) {
   EXPECT_EQ(set.Down(up, Side::kLeft).X_SF.height, 0.1);
   EXPECT_EQ(set.Up(up, Side::kLeft).X_SF.height, -0.1);
   EXPECT_EQ(set.Down(up, Side::kRight).X_SF.height, 0.1);
+}
+
+TEST(LevelPlanning, LandsOnTheGroundUnderTheElements) {
+  const auto stairs = Stairs(4, 0.15);
+  const StepSet set = PlausibleSet();
+  const GroundQuery query(set, *stairs);
+  for (const char* planner : {"astar", "astar/classic", "rrt"}) {
+    PlanRequest request = RequestTo({1.6, 0.0, 0.0}, set, query);
+    request.ground = [&query](const Pose2& X_WF, double from) {
+      return query.HeightAt(X_WF, from);
+    };
+    request.goal.radius = 0.2;
+    request.stop = AnyOf({AtFirstPlan(), AfterNodes(20000)});
+    std::mt19937_64 random(1);
+    const PlanResult result = Planners::Standard().Make(planner, {})->Plan(request, random);
+    ASSERT_EQ(result.status, PlanStatus::kSolved) << planner << ": " << result.sentence;
+    for (const Footstep& footstep : result.footsteps) {
+      const auto level = stairs->LevelUnder(kOutline, footstep.X_WF.Planar(), 10.0);
+      ASSERT_TRUE(level.has_value()) << planner;
+      EXPECT_EQ(level->height, footstep.X_WF.height) << planner;
+    }
+    EXPECT_EQ(result.footsteps.back().X_WF.height, stairs->Levels().back().height);
+    // Where nothing bears, nothing is found.
+    request.ground = [](const Pose2&, double) { return std::numeric_limits<double>::quiet_NaN(); };
+    std::mt19937_64 again(1);
+    EXPECT_EQ(Planners::Standard().Make(planner, {})->Plan(request, again).status,
+              PlanStatus::kNoPlan);
+  }
 }
 
 TEST(LevelPlanning, ClimbsStairs) {

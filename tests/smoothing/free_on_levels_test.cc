@@ -5,10 +5,13 @@
 
 #include <array>
 #include <memory>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "planner/swept/swept_volume_bake.h"
 #include "planner/swept/swept_volume_query.h"
+#include "smoothing/methods/walk_problem.h"
 #include "smoothing/proof/certified_feasibility.h"
 #include "tests/planner/blocks_ground.h"
 #include "tests/planner/swept_volume_draws.h"
@@ -84,6 +87,29 @@ TEST(FreeOnLevels, IsCertified) {
   }
   EXPECT_GE(free, 8);
   EXPECT_GE(not_certified, 8);
+}
+
+// Regression: the height of a sole was compared with its level to the bit, and 0.07 m lower than
+// 0.11 m is not 0.04 m.
+TEST(WalkOnLevels, IsTakenWhereHeightsAreOtherSums) {
+  double from = 0.0, to = 0.0;
+  for (int a = 0; a < 16 && from == 0.0; ++a) {
+    for (int b = 0; b < 16; ++b) {
+      const double x = 0.01 * a, y = 0.01 * b;
+      if (x + (y - x) < y) std::tie(from, to) = std::pair(x, y);
+    }
+  }
+  ASSERT_NE(from, to);
+  Scene scene;
+  scene.ground = std::make_shared<const BlocksGround>(
+      0.0, std::vector<GroundSolid>{Block("near", -0.3, 0.15, -0.5, 0.5, from, 0.0),
+                                    Block("far", 0.15, 0.6, -0.5, 0.5, to, 0.0)});
+  const RobotModel& robot = SweptRobot();
+  const HalfStepSequence sequence =
+      MakeSequence({Foothold({0.0, 0.1, 0.0}, from), Foothold({0.0, -0.1, 0.0}, from)},
+                   {{.side = Side::kRight, .X_WF = Foothold({0.35, -0.1, 0.0}, to)}}, 0.24, {},
+                   std::make_shared<Lipm>(robot.com_height));
+  EXPECT_NO_THROW(WalkProblem(robot, scene, sequence, {}));
 }
 
 }  // namespace
