@@ -213,7 +213,7 @@ void PrintReplayed(const std::string& run, const std::string& method) {
     const Eigen::Vector2d off(off_x[i], off_y[i]);
     if (row == 0 || row >= t.size() || !off.allFinite()) continue;
     const double part = (middle - t[row - 1]) / (t[row] - t[row - 1]);
-    const Eigen::Vector2d robots = (1 - part) * zmps[row - 1] + part * zmps[row],
+    const Eigen::Vector2d robots = (1 - part) * zmps[row - 1].zmp + part * zmps[row].zmp,
                           planned((1 - part) * x[row - 1] + part * x[row],
                                   (1 - part) * y[row - 1] + part * y[row]);
     const double yaw = yaws[left[i] >= right[i] ? 0 : 1][row];

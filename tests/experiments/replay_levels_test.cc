@@ -27,8 +27,6 @@ using testing::AnyOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-constexpr double kOneDegree = M_PI / 180;
-
 #define SKIP_WITHOUT_SIMULATION() \
   if (!WhyNoSimulation().empty()) GTEST_SKIP() << WhyNoSimulation()
 
@@ -103,7 +101,7 @@ TEST_F(ReplayLevelsTest, WhatStandsOnASolidTouchesNothingElse) {
           Played(SetupOn({.floor = false, .solids = {solid}}), Standing(top));
       EXPECT_TRUE(result.stayed_up);
       EXPECT_NEAR(result.weight_share, 1.0, 0.01);
-      EXPECT_LT(result.largest_tilt, 0.3 * kOneDegree);
+      EXPECT_LT(result.largest_tilt, 0.3 * (M_PI / 180));
       EXPECT_LT(result.zmp_largest, solid.polygon.cols() == 4 ? 0.005 : 0.03);  // fewer contacts
       EXPECT_THAT(result.touches, IsEmpty());
       EXPECT_GT(result.rows.back().edge, 0.05);
@@ -118,7 +116,7 @@ TEST_F(ReplayLevelsTest, SeamsOfALevelAreNoEdges) {
                                .solids = {Block(-1, -1, 1.02, 2, 0.1), Block(0.02, -1, 1, 2, 0.1)}};
   const ReplayResult result = Played(SetupOn(ground), Standing(0.1));
   EXPECT_TRUE(result.stayed_up);
-  EXPECT_LT(result.largest_tilt, 0.3 * kOneDegree);
+  EXPECT_LT(result.largest_tilt, 0.3 * (M_PI / 180));
   EXPECT_THAT(result.touches, IsEmpty());
 }
 
@@ -130,7 +128,7 @@ TEST_F(ReplayLevelsTest, WhoHasNothingUnderTheSolesHasFallen) {
       Played(SetupOn({.floor = false, .solids = {Block(2, -1, 1, 2, 0.0)}}), rows);
   EXPECT_FALSE(result.stayed_up);
   EXPECT_LT(result.ended, 0.5);
-  EXPECT_LT(result.largest_tilt, 10 * kOneDegree);
+  EXPECT_LT(result.largest_tilt, 10 * (M_PI / 180));
 }
 
 // The first step up. Of treads that are 16 cm higher than planned the foot meets the riser.
@@ -140,7 +138,7 @@ TEST_F(ReplayLevelsTest, AStepStandsAndARiserInTheWayIsTold) {
   SimulatedGround ground = GroundOf("stairs_10cm");
   const ReplayResult result = Played(SetupOn(ground), rows);
   EXPECT_TRUE(result.stayed_up);
-  EXPECT_LT(result.largest_tilt, 0.5 * kOneDegree);
+  EXPECT_LT(result.largest_tilt, 0.5 * (M_PI / 180));
   EXPECT_THAT(result.touches, IsEmpty());
   EXPECT_NEAR(result.rows.back().waist.z(), rows.back().waist.z(), 0.003);
   for (GroundSolid& solid : ground.solids) solid.top += 0.16;
@@ -288,7 +286,7 @@ TEST_F(ReplayLevelsTest, PlatesAndCurbsAreRefusedAndSlopesTurnAll) {
   setup.relief = ParseRelief("", "slope=3");
   const ReplayResult result = Played(setup, Standing(0.2));
   EXPECT_TRUE(result.stayed_up);
-  EXPECT_NEAR(result.rows.back().tilt, 3 * kOneDegree, 0.5 * kOneDegree);
+  EXPECT_NEAR(result.rows.back().tilt, 3 * (M_PI / 180), 0.5 * (M_PI / 180));
 }
 
 }  // namespace

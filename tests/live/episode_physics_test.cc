@@ -39,6 +39,7 @@ struct PlayedInPhysics {
 EpisodeRobot RobotOf(const ModelOptions& model = {}) {
   return {.setup = {.robot = Hrp2(),
                     .obstacles = {},
+                    .ground = {},
                     .model = model,
                     .relief = {},
                     .play = {},

@@ -149,7 +149,9 @@ TEST(OnLevels, SparseMotionsKeepEveryBound) {
     for (const auto& [what, part] : tally.parts) {
       EXPECT_GT(part.compared, Draws(800) / 8) << robot.name << ": " << what;
       if (what.starts_with("control")) {
-        if (!kSanitized) EXPECT_GT(part.excess, 1.0) << robot.name << ": " << what;
+        if (!kSanitized) {
+          EXPECT_GT(part.excess, 1.0) << robot.name << ": " << what;
+        }
         continue;
       }
       EXPECT_LT(part.excess, 1.0) << robot.name << ": " << what;
