@@ -83,8 +83,9 @@ TEST(RunCommand, AnInfeasiblePlanTellsWhatHelps) {
 // robot that crouches.
 TEST(RunCommand, AnInfeasiblePlanTellsHowMuchToCrouch) {
   const TemporaryFolder place;
-  std::vector<std::string> run = {"run", ShippedConfig("stairs_10cm"), "--overwrite", "--set",
-                                  "start.left.y_m=0.105", "--set", "start.right.y_m=-0.105"};
+  std::vector<std::string> run = {
+      "run",   ShippedConfig("stairs_10cm"), "--overwrite", "--set", "start.left.y_m=0.105",
+      "--set", "start.right.y_m=-0.105"};
   for (int i = 0; i < 4; ++i) {
     const std::string y = i % 2 == 0 ? "-0.105" : "0.105";
     run.insert(run.end(), {"--set", "footsteps." + std::to_string(i) + ".y_m=" + y});
