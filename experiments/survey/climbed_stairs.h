@@ -33,7 +33,7 @@ double UsualRun(const RobotModel& robot);
 
 /// A flight and the form of the half-steps by which a robot walks up and down it.
 struct ClimbedStairs {
-  Flight flight;
+  Flight flight;       ///< the stairs
   HalfStep half_step;  ///< duration, via point and shape
 };
 

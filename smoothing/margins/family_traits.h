@@ -52,7 +52,7 @@ class DemandFault {
  public:
   using Function = std::string (*)(const RobotModel& robot);         ///< gives the sentence
   constexpr DemandFault(Function function) : function_(function) {}  ///< as which it is written
-  std::string operator()(const RobotModel& robot) const { return function_(robot); }
+  std::string operator()(const RobotModel& robot) const { return function_(robot); }  ///< tells it
 
  private:
   Function function_;

@@ -82,6 +82,7 @@ TEST(ExplainConfig, DefaultsAndKeysAreThoseOfAResolvedConfig) {
                                           "half_step.rise_end",
                                           "half_step.crouch_m",
                                           "goal.level",
+                                          "planner.free_by",
                                           "footsteps.N.z_m",
                                           "start.left.z_m",
                                           "start.right.z_m"};
@@ -89,6 +90,7 @@ TEST(ExplainConfig, DefaultsAndKeysAreThoseOfAResolvedConfig) {
     *on = {"floor", 0.0};
   }
   config.goal.level = "floor";
+  config.planner.free_by = "certificates";
   config.half_step.rise_begin = 0.5;
   config.half_step.rise_end = 0.9;
   config.half_step.crouch = 0.01;

@@ -53,14 +53,14 @@ TEST(InitCommand, NamesASceneAndAGoal) {
 TEST(InitCommand, LeadsUpStairs) {
   const TemporaryFolder place;
   const Outcome outcome =
-      Halfstep(place.path(), {"init", "up", "--robot", "wren", "--stairs", "0.02"});
+      Halfstep(place.path(), {"init", "up", "--robot", "bison", "--stairs", "0.1"});
   ASSERT_EQ(outcome.status, kSuccess) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("written: up_scene.yaml\nwritten: up.yaml\n"));
-  EXPECT_THAT(ReadText(place / "up_scene.yaml"), HasSubstr("rise_m: 0.02,"));
+  EXPECT_THAT(ReadText(place / "up_scene.yaml"), HasSubstr("rise_m: 0.1,"));
   const Outcome run = Halfstep(place.path(), {"run", "up.yaml", "--out", "run"});
   EXPECT_EQ(run.status, kSuccess) << run.err;
   EXPECT_THAT(run.out, HasSubstr("raw                    converged        certified"));
-  EXPECT_THAT(ReadText(place / "run/footsteps.csv"), HasSubstr("0.06"));  // the third tread
+  EXPECT_THAT(ReadText(place / "run/footsteps.csv"), HasSubstr(",0.3"));  // the third tread
   // Nothing is lost, and nothing is written of what is no flight.
   const Outcome there = Halfstep(place.path(), {"init", "up.yaml", "--stairs"});
   EXPECT_EQ(there.status, kBadInput);
