@@ -88,7 +88,7 @@ std::string StairsMistake(const std::vector<double>& numbers) {
   for (size_t i = 0; i < numbers.size(); ++i) {
     const bool whole = i < 2 || numbers[i] == std::floor(numbers[i]);
     if (numbers[i] >= kLeast.at(i) && numbers[i] <= kMost.at(i) && whole) continue;
-    return std::string(kNames.at(i)) + ": " + ShortestText(numbers[i]) +
+    return std::string(kNames.at(i)) + Formatted(": %.6g", numbers[i]) +
            " (valid: " + (i == 2 ? "whole, " : "") + "from " + ShortestText(kLeast.at(i)) + " to " +
            ShortestText(kMost.at(i)) + ")";
   }
