@@ -53,9 +53,9 @@ release_only="$release_only|walks.stand"
 all_only='^$'
 if [ "$presets" = release ]; then
   # Of the three bars, which differ in height, 8 cm stays, and of walks over levels one.
-  all_only='walks.stand/(bar_10cm|bar_5cm|clutter|crossing|cylinders|fence|island|plan_|platform|random_room|stones|wren)'
+  all_only='walks.stand/(bar_10cm|bar_5cm|clutter|crossing|cylinders|fence|fig4|island|plan_|platform|random_room|stones|wren)'
   all_only="$all_only|walks.stand/stairs_(10cm_down|15cm)"
-  all_only="$all_only|(ReportPage|LivePage).InABrowser"
+  all_only="$all_only|(ReportPage|SweepPage|LivePage).InABrowser"
 fi
 
 for preset in $presets; do
