@@ -338,8 +338,9 @@ std::vector<Touch> Simulation::touches() const {
     const int obstacle = state_->ObstacleOf(swapped ? contact.geom2 : contact.geom1);
     if (obstacle < 0) continue;
     const int geom = swapped ? contact.geom1 : contact.geom2;
+    const auto standing = state_->SoleContactAt(i);  // none where a sole meets an obstacle
+    if (standing && standing->upon) continue;
     const int sole = state_->SoleOf(geom);
-    if (sole >= 0 && state_->SoleContactAt(i)->upon) continue;
     const int body = sole >= 0 ? state_->layout->num_robot_bodies + sole
                                : Nth(state_->layout->robot_bodies, geom);
     const auto [at, is_new] = forces.try_emplace({body, obstacle}, Vector3d::Zero());

@@ -144,7 +144,7 @@ class Fitting {
     Margin missed = {};  // of the best crossing, where none does
     const Crossing* of = nullptr;
   };
-  // By class of difference of height; how far from keeping all only `with_slack`.
+  // By class of difference of height. Where none keeps all, Nearest() tells how near one comes.
   std::map<int, OfClass> Fit(const HalfStepConfig& form) {
     std::map<int, std::pair<int, int>> kept;  // and all
     for (const Crossing& crossing : crossings_) {
@@ -158,7 +158,7 @@ class Fitting {
     }
     return fits;
   }
-  // How near the best crossing of a class, of some, is to keeping all.
+  // How near the best of the first crossings of a class is to keeping all.
   OfClass Nearest(const HalfStepConfig& form, int key) {
     constexpr int kLooked = 16;
     OfClass best{.fit = -kWorst};

@@ -21,7 +21,7 @@ double SizeOf(const RobotModel& robot) { return MeasuresOf(robot).leg_length / k
 
 // What is tried, the usual first. Lengths for HRP-2's size; a via point lower than the next tread
 // is left out.
-std::vector<HalfStep> FormsFor(const Flight& flight, const RobotModel& robot,
+std::vector<HalfStep> TriedForms(const Flight& flight, const RobotModel& robot,
                                const HalfStep& usual) {
   const double size = SizeOf(robot);
   std::vector<HalfStep> forms;
@@ -87,7 +87,7 @@ std::optional<HalfStep> FormFor(const Flight& flight, const RobotModel& robot,
         config.smoothing.certification);
   };
   const CertifiedFeasibility upwards = test_on(true), downwards = test_on(false);
-  for (const HalfStep& form : FormsFor(flight, robot, PrototypeOf(config))) {
+  for (const HalfStep& form : TriedForms(flight, robot, PrototypeOf(config))) {
     if (!goes_on()) return std::nullopt;
     const auto walks = [&](const CertifiedFeasibility& test, bool up) {
       return CertifyPlan(test, WalkAlong(flight, up, robot, form)).accepted;

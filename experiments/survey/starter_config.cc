@@ -26,9 +26,11 @@ std::string LinesOf(const ClimbedStairs& stairs, const RobotModel& robot) {
     text += FootstepLine(down.half_step.swing(), at.Planar());
   }
   return text + Formatted(
+                    "# How long a half-step lasts, how high the foot goes, how late after take-off "
+                    "it moves "
+                    "on, and how\n# far the waist is lowered:\n"
                     "half_step: {duration_s: %.4g, via_height_m: %.4g, foot_delay: %.4g, crouch_m: "
-                    "%.4g}  # so long lasts each, so high goes the foot, so late it moves on, so "
-                    "low is the waist\n",
+                    "%.4g}\n",
                     form.duration, form.via_height, form.shape.foot_delay, form.shape.crouch);
 }
 

@@ -44,8 +44,8 @@ class FrictionMargin final : public SupportFamily {
       .remedy =
           "a longer `half_step.duration_s`, a lower `half_step.via_height_m` (the swing leg's "
           "momentum turns the support foot)",
-      .sentence = {"the need of {subject} leaves {amount} of the floor's friction",
-                   "the need of {subject} is {amount} above the floor's friction"},
+      .sentence = {"{family} of {subject}: {amount} of the floor's is left",
+                   "{family} of {subject}: {amount} above the floor's"},
       .coverage = {.why_not_demandable = NeedsMasses, .assumes = SceneWithoutFriction},
       .scope = MarginScope::kRobot,
       .scale = 0.05,
