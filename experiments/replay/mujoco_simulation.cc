@@ -1,17 +1,14 @@
 #include <mujoco/mujoco.h>
 
-#include <clocale>
 #include <cmath>
-#include <cstring>
-#include <locale>
 #include <map>
 #include <optional>
 #include <stdexcept>
 
+#include "experiments/replay/mujoco_compile.h"
 #include "experiments/replay/mujoco_model.h"
 #include "experiments/replay/simulation.h"
 #include "wpg/check.h"
-#include "wpg/files/plain_locale.h"
 #include "wpg/nth.h"
 
 namespace halfstep::replay {
@@ -20,53 +17,6 @@ namespace {
 using Eigen::Vector3d;
 constexpr int kRoot = 1;           // the body after the world
 constexpr double kNowhere = -1e4;  // height of obstacles that are not there [m]
-
-[[noreturn]] void Refuse(const char* message) {
-  throw std::runtime_error(std::string("MuJoCo: ") + message);
-}
-
-// MuJoCo would end the process, or write a file into the working directory.
-void CatchErrors() {
-  mju_user_error = Refuse;
-  mju_user_warning = [](const char*) {};
-}
-
-// MuJoCo reads a model's numbers by strtod and by streams of the program's global locale. As long
-// as this lives, both are C's; a program whose streams are C's already is not touched.
-class ClassicStreams {
- public:
-  ClassicStreams() : streams_(), locale_(std::setlocale(LC_ALL, nullptr)) {
-    if (streams_ != std::locale::classic()) std::locale::global(std::locale::classic());
-  }
-  ~ClassicStreams() {
-    if (streams_ == std::locale::classic()) return;
-    std::locale::global(streams_);
-    std::setlocale(LC_ALL, locale_.c_str());
-  }
-  ClassicStreams(const ClassicStreams&) = delete;
-  ClassicStreams& operator=(const ClassicStreams&) = delete;
-
- private:
-  const std::locale streams_;
-  const std::string locale_;
-  const PlainLocale plain_;
-};
-
-std::shared_ptr<const mjModel> Compile(const std::string& mjcf) {
-  CatchErrors();
-  const ClassicStreams classic;
-  const auto files = std::make_unique<mjVFS>();
-  mj_defaultVFS(files.get());
-  mj_makeEmptyFileVFS(files.get(), "robot.xml", static_cast<int>(mjcf.size()));
-  std::memcpy(files->filedata[0], mjcf.data(), mjcf.size());
-  std::array<char, 1000> reason{};
-  mjModel* model = mj_loadXML("robot.xml", files.get(), reason.data(), reason.size());
-  mj_deleteVFS(files.get());
-  if (model == nullptr) Refuse(reason.data());
-  const std::shared_ptr<const mjModel> compiled(model, mj_deleteModel);
-  if (reason[0] != '\0') Refuse(reason.data());  // a warning: it took something in another way
-  return compiled;
-}
 
 int Find(const mjModel& model, mjtObj kind, const std::string& name) {
   const int id = mj_name2id(&model, kind, name.c_str());
@@ -153,7 +103,7 @@ Simulation::Simulation(const std::string& mjcf, const RobotModel& robot,
                        const std::vector<SimulatedObstacle>& obstacles)
     : state_(std::make_unique<State>()) {
   State::Layout layout;
-  layout.model = Compile(mjcf);
+  layout.model = CompileMujoco(mjcf);
   const mjModel& model = *layout.model;
   layout.floor = mj_name2id(&model, mjOBJ_GEOM, "floor");
   layout.waist = Find(model, mjOBJ_BODY, BodyName(waist_link));
@@ -264,10 +214,10 @@ FloorForces Simulation::Step(const JointTargets& targets, const Eigen::Vector3d&
   Eigen::Map<Vector3d>(data->xfrc_applied + 6 * layout.waist) = push;
   mj_step(model, data);
   for (const int warning : {mjWARN_BADQPOS, mjWARN_BADQVEL, mjWARN_BADQACC}) {
-    if (data->warning[warning].number > 0) Refuse("the simulation became unstable");
+    if (data->warning[warning].number > 0) RefuseMujoco("the simulation became unstable");
   }
   for (const int warning : {mjWARN_CONTACTFULL, mjWARN_CNSTRFULL}) {
-    if (data->warning[warning].number > 0) Refuse("more contacts than it has room for");
+    if (data->warning[warning].number > 0) RefuseMujoco("more contacts than it has room for");
   }
   FloorForces forces;
   for (int i = 0; i < data->ncon; ++i) {

@@ -1,15 +1,12 @@
 #pragma once
 
-#include <functional>
-#include <optional>
-#include <stop_token>
 #include <string>
 #include <vector>
 
 #include "experiments/config/experiment.h"
+#include "experiments/run/baked_half_steps.h"
 #include "experiments/run/certified_half_steps.h"
 #include "planner/search/footstep_planner.h"
-#include "planner/swept/swept_volume_cache.h"
 #include "smoothing/proof/certified_feasibility.h"
 #include "wpg/geometry/foothold.h"
 #include "wpg/robot/not_covered.h"
@@ -20,32 +17,6 @@ namespace halfstep {
 /// Whether the concatenation keeps every demanded margin for all t; a refusal names the footstep
 /// whose half-steps are to blame.
 Acceptance CertifyPlan(const CertifiedFeasibility& test, const HalfStepSequence& sequence);
-
-/// Seconds of a steady clock.
-double SteadySeconds();
-
-/// Callbacks of planning. `progress` is called with what is under way and the fraction of it that
-/// is done.
-struct PlanningHooks {
-  std::function<void(const std::string& what, double done)> progress = {};  ///< may be empty
-  std::stop_token stop = {};  ///< ends planning; the best plan so far is kept
-};
-
-/// The set and its swept volumes, from the cache or baked. Throws InputError when no half-step is
-/// certified.
-struct BakedHalfSteps {
-  int size = 0;           ///< elements
-  double set_wall = 0.0;  ///< of certifying the set [s]
-  double wall = 0.0;      ///< of reading or baking [s]
-  CachedVolumes cached;   ///< without volumes when stopped
-};
-/// Certifies the config's half-steps of a robot and takes their swept volumes from the cache, or
-/// bakes them and puts them there.
-BakedHalfSteps BakeHalfSteps(const RobotModel& robot, const ExperimentConfig& config,
-                             const PlanningHooks& hooks);
-/// The same for a ground: on its levels where it HasLevels.
-BakedHalfSteps BakeHalfSteps(const RobotModel& robot, const ExperimentConfig& config,
-                             const Ground& ground, const PlanningHooks& hooks);
 
 /// A plan and what it was made with.
 struct PlannedWalk {
