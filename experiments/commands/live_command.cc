@@ -11,6 +11,7 @@
 #include "experiments/live/episode_files.h"
 #include "experiments/live/episode_journal.h"
 #include "experiments/live/episode_summary.h"
+#include "experiments/live/free_half_steps.h"
 #include "experiments/live/judged_promise.h"
 #include "experiments/live/spare_boxes.h"
 #include "experiments/replay/physics_record.h"
@@ -179,13 +180,28 @@ void PrintSummary(const LiveCommand& command, const Episode& episode, const True
   }
 }
 
-// Without volumes when it was stopped.
-std::shared_ptr<const BakedHalfSteps> Baked(const LiveConfig& config, const Place& place,
-                                            bool silent, const std::stop_token& stop) {
+// What an episode replans with, and the half-steps that it borrows.
+struct Thinking {
+  std::shared_ptr<const SweptVolumes> volumes;  // null: by proofs
+  std::unique_ptr<const Replanner> replanner;   // null when it was stopped
+};
+
+// `config` gets the form of half-steps that the ground asks for.
+Thinking Prepare(const Place& place, bool silent, const std::stop_token& stop, LiveConfig* config) {
+  Thinking made;
+  if (FreeByProofs(place, config->experiment)) {
+    config->experiment = WithFormFor(place, config->experiment, stop);
+    if (!stop.stop_requested()) made.replanner = std::make_unique<const Replanner>(place, *config);
+    return made;
+  }
   ProgressBar bar("half-steps", silent);
-  return std::make_shared<const BakedHalfSteps>(BakeHalfSteps(
-      place.robot, config.experiment,
+  const auto baked = std::make_shared<const BakedHalfSteps>(BakeHalfSteps(
+      place.robot, config->experiment,
       {.progress = [&bar](const std::string&, double done) { bar.Update(done); }, .stop = stop}));
+  if (!baked->cached.volumes) return made;
+  made.volumes = {baked, &*baked->cached.volumes};
+  made.replanner = std::make_unique<const Replanner>(place, *config, *made.volumes);
+  return made;
 }
 
 }  // namespace
@@ -208,15 +224,12 @@ ExitStatus Live(const LiveCommand& command) {
   }
   if (served) PrintPlaces(command, *served);
   const bool silent = command.run.quiet || command.run.json;
-  const std::shared_ptr<const BakedHalfSteps> baked =
-      Baked(config, place, silent, interrupt.token());
-  if (!baked->cached.volumes) {
+  const Thinking thinking = Prepare(place, silent, interrupt.token(), &config);
+  if (!thinking.replanner) {
     std::cerr << "halfstep: interrupted while half-steps were baked\n";
     return kInterrupted;
   }
-  const std::shared_ptr<const SweptVolumes> volumes(baked, &*baked->cached.volumes);
-  if (served) served->Prepare(volumes);
-  const Replanner replanner(place, config, *volumes);
+  if (served) served->Prepare(thinking.volumes);
   RunFolder folder(OutputFolder(command.run, config.experiment), command.run.overwrite);
   std::optional<ProgressBar> bar;
   bar.emplace("episode", silent);
@@ -231,7 +244,7 @@ ExitStatus Live(const LiveCommand& command) {
   };
   EpisodeHooks hooks{.on_tick = on_tick, .stop = interrupt.token()};
   if (simulated) AddPhysics(&*simulated, &hooks);
-  Episode episode = Walk(config, replanner, place, &sensor, served.get(), hooks);
+  Episode episode = Walk(config, *thinking.replanner, place, &sensor, served.get(), hooks);
   bar.reset();
   if (!journal.failure().empty()) std::cerr << "halfstep: warning: " << journal.failure() << '\n';
   if (served && served->sensor() != nullptr) config.live.script = served->Script();

@@ -162,6 +162,14 @@ std::optional<GroundLevel> ChosenLevel(const Ground& ground, const std::string& 
                     " m (valid: " + heights + ")"});
 }
 
+GoalRegion GoalOn(const GoalConfig& goal, const Ground& ground) {
+  GoalRegion region = goal.Region();
+  if (const auto level = ChosenLevel(ground, "goal", {.name = goal.level})) {
+    region.height = level->height;
+  }
+  return region;
+}
+
 Foothold OnGround(const Ground& ground, const RobotModel& robot, const Pose2& X_WF,
                   const std::string& who, const LevelChoice& on) {
   const std::optional<GroundLevel> level = ChosenLevel(ground, who, on);

@@ -42,6 +42,9 @@ ExperimentConfig MovedTo(const std::filesystem::path& folder, const ExperimentCo
 /// begins with `who`, where there is none such.
 std::optional<GroundLevel> ChosenLevel(const Ground& ground, const std::string& who,
                                        const LevelChoice& on);
+/// The region of a config's goal, at the height of the level that it names. Throws InputError as
+/// ChosenLevel.
+GoalRegion GoalOn(const GoalConfig& goal, const Ground& ground);
 /// Where a config's walk takes place.
 struct Place {
   RobotModel robot;  ///< as in Experiment

@@ -10,11 +10,11 @@
 #include "experiments/config/experiment_config.h"
 #include "wpg/files/number_text.h"
 #include "wpg/files/number_visit.h"
+#include "wpg/robot/reference_leg.h"
 
 namespace halfstep {
 namespace {
 
-constexpr double kLegLength = 0.705;  // of HRP-2 [m]
 constexpr double kStance = 0.21;      // its standing width [m]
 constexpr double kSoleWidth = 0.137;  // of its soles, the shorter side [m]
 constexpr double kSpacing = 0.05;     // of its step set [m]
@@ -60,7 +60,7 @@ double DelayToRise(double fraction) {
 
 // The value for a robot of what is `hrp2` for HRP-2.
 double Scaled(Law law, double hrp2, const RobotMeasures& robot) {
-  const double length = robot.leg_length / kLegLength, width = robot.standing_width / kStance;
+  const double length = robot.leg_length / kLegOfHrp2, width = robot.standing_width / kStance;
   switch (law) {
     case Law::kLength:
       return Rounded(hrp2 * length);

@@ -82,7 +82,7 @@ void ReadWorlds(const Tables& tables, const LiveConfig& config, const Place& pla
     world.version = version[k];
     world.measured_at = measured[k];
     world.sound_since = sound[k];
-    world.goal = config.experiment.goal.Region();
+    world.goal = GoalOn(config.experiment.goal, *place.scene.ground);
     world.goal.X_WG.x = x[k];
     world.goal.X_WG.y = y[k];
     world.scene = place.scene.Emptied();
@@ -135,13 +135,15 @@ WalkPlan ReadWalk(const Tables& tables, size_t walk, const LiveConfig& config, c
   const std::vector<double> x = table.Numbers("x_m"), y = table.Numbers("y_m"),
                             yaw = table.Numbers("yaw_rad"), via = table.Numbers("via_height_m"),
                             duration = table.Numbers("duration_s");
+  const std::vector<double> z = table.Has("z_m") ? table.Numbers("z_m") : std::vector<double>{};
   constexpr std::array kSides = {Side::kLeft, Side::kRight};
   std::array<Foothold, 2> start;
   std::vector<Footstep> footsteps;
   for (size_t row = 0; row < feet.size(); ++row) {
     const Side side = Named(kSides, feet[row], table, row);
+    const LevelChoice on{.z = z.empty() ? std::nullopt : std::optional(z[row])};
     const Foothold X_WF = OnGround(*place.scene.ground, place.robot, {x[row], y[row], yaw[row]},
-                                   table.path + Formatted(":%zu", row + 2));
+                                   table.path + Formatted(":%zu", row + 2), on);
     if (row < 2) {
       Nth(start, Index(side)) = X_WF;
     } else {

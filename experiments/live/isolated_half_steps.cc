@@ -39,11 +39,11 @@ std::optional<SetElement> ElementOf(const HalfStep& half_step, const StepSet& se
   return std::nullopt;
 }
 
-bool IsolatedAndFree(const SuperposedWalk& walk, int j, const SweptVolumes& volumes,
-                     const SweptVolumeQuery& query) {
+bool IsolatedAndFree(const SuperposedWalk& walk, int j, const StepSet& set,
+                     const HalfStepQuery& query) {
   if (!IsIsolated(walk, j)) return false;
   const HalfStep& half_step = walk.half_step(j);
-  const std::optional<SetElement> element = ElementOf(half_step, volumes.set);
+  const std::optional<SetElement> element = ElementOf(half_step, set);
   if (!element) return false;
   return half_step.kind == HalfStepKind::kDown
              ? query.DownIsFree(element->index, element->support, walk.X_WS(j))

@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "planner/swept/swept_volume_query.h"
-#include "planner/swept/swept_volumes.h"
+#include "planner/search/half_step_query.h"
+#include "planner/search/step_set.h"
 #include "smoothing/walk/superposed_walk.h"
 
 namespace halfstep {
@@ -20,9 +20,9 @@ std::optional<SetElement> ElementOf(const HalfStep& half_step, const StepSet& se
 
 /// Whether no other half-step of the walk is under way together with half-step j, this one is a
 /// half-step of the set, and its swept volume is free: then it keeps the clearance of the volumes
-/// at all times. `query` is of the same volumes. No-step areas
+/// at all times. `query` is of volumes of the set. No-step areas
 /// that soles already stand on do not count.
-bool IsolatedAndFree(const SuperposedWalk& walk, int j, const SweptVolumes& volumes,
-                     const SweptVolumeQuery& query);
+bool IsolatedAndFree(const SuperposedWalk& walk, int j, const StepSet& set,
+                     const HalfStepQuery& query);
 
 }  // namespace halfstep

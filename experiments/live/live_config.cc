@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "experiments/config/scaled_defaults.h"
+#include "planner/search/step_set.h"
 #include "wpg/files/text.h"
 
 namespace halfstep {
@@ -214,6 +215,10 @@ std::vector<SceneMistake> MistakesOf(const LiveOptions& options, const Scene& sc
   if (options.drift > 0.0 && !scene.no_step.empty()) {
     mistakes.push_back(
         {"drift_m_s", "the scene has no-step areas, whose place is taken as exact (valid: 0)"});
+  }
+  if (options.drift > 0.0 && HasLevels(*scene.ground)) {
+    mistakes.push_back(
+        {"drift_m_s", "the ground has levels, whose borders are taken as exact (valid: 0)"});
   }
   for (const std::string& name : SpareNames(options)) {
     if (std::ranges::count(scene.obstacles, name, &Obstacle::name) < 2) continue;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <utility>
 #include <variant>
 
@@ -43,21 +45,41 @@ json ObstacleJson(const Obstacle& obstacle) {
           {"horizon_s", OrNull(motion.horizon)}};
 }
 
-json FootstepJson(Side side, const Foothold& X_WF) {
-  X_WF.CheckLevel();
-  return {{"foot", Name(side)}, {"x_m", X_WF.x}, {"y_m", X_WF.y}, {"yaw_rad", X_WF.yaw}};
+json FootstepJson(Side side, const Foothold& X_WF, bool has_heights) {
+  json footstep = {{"foot", Name(side)}, {"x_m", X_WF.x}, {"y_m", X_WF.y}, {"yaw_rad", X_WF.yaw}};
+  if (has_heights) footstep["z_m"] = X_WF.height;
+  return footstep;
 }
 
 json FootstepsJson(const HalfStepSequence& sequence) {
   json footsteps = json::array();
+  const bool has_heights = HasHeights(sequence);
   for (const Side side : {Side::kLeft, Side::kRight}) {
-    footsteps.push_back(FootstepJson(side, Nth(sequence.start, Index(side))));
+    footsteps.push_back(FootstepJson(side, Nth(sequence.start, Index(side)), has_heights));
   }
   for (int step = 0; step < sequence.num_steps(); ++step) {
     const PlacedHalfStep& down = Nth(sequence.half_steps, 2 * step + 1);
-    footsteps.push_back(FootstepJson(down.half_step.swing(), down.X_WS * down.half_step.X_SF));
+    footsteps.push_back(
+        FootstepJson(down.half_step.swing(), down.X_WS * down.half_step.X_SF, has_heights));
   }
   return footsteps;
+}
+
+// Of ground with levels, the height of what is under the middle of the goal [m].
+std::optional<double> GoalHeight(const World& world) {
+  const Ground& ground = *world.scene.ground;
+  if (ground.OnlyLevel()) return std::nullopt;
+  if (world.goal.height) return world.goal.height;
+  const Eigen::Matrix2Xd spot{{1e-3, 0.0, -1e-3}, {0.0, 1e-3, -1e-3}};
+  const auto level =
+      ground.LevelUnder(spot, world.goal.X_WG, std::numeric_limits<double>::infinity());
+  return level ? std::optional(level->height) : std::nullopt;
+}
+
+json GoalJson(const World& world) {
+  json goal = {{"x_m", world.goal.X_WG.x}, {"y_m", world.goal.X_WG.y}};
+  if (const auto z = GoalHeight(world)) goal["z_m"] = *z;
+  return goal;
 }
 
 }  // namespace
@@ -96,7 +118,7 @@ json WorldMessage(const World& world, double known) {
           {"known_s", known},
           {"measured_s", world.measured_at},
           {"sound_since", world.sound_since},
-          {"goal", {{"x_m", world.goal.X_WG.x}, {"y_m", world.goal.X_WG.y}}},
+          {"goal", GoalJson(world)},
           {"areas", areas},
           {"obstacles", obstacles}};
 }

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "experiments/run/planning.h"
-#include "planner/swept/swept_volume_query.h"
-#include "planner/swept/swept_volumes.h"
+#include "experiments/run/certified_half_steps.h"
+#include "planner/search/half_step_query.h"
+#include "planner/search/step_set.h"
 
 namespace halfstep {
 
@@ -12,19 +12,18 @@ namespace halfstep {
 /// found no other way, and only so many times. For one search in one thread.
 class NearStartQuery : public HalfStepQuery {
  public:
-  /// All are borrowed; the query and the certifier are of the same scene, the query of `volumes`.
-  NearStartQuery(const SweptVolumes& volumes, const SweptVolumeQuery& query,
-                 const HalfStepCertifier& certifier, const Eigen::Vector2d& start)
-      : volumes_(volumes), query_(query), certifier_(certifier), start_(start) {}
+  /// All are borrowed; the query and the certifier are of the same scene, the query of the set.
+  NearStartQuery(const StepSet& set, const HalfStepQuery& query, const HalfStepCertifier& certifier,
+                 const Eigen::Vector2d& start)
+      : set_(set), query_(query), certifier_(certifier), start_(start) {}
 
   bool DownIsFree(int i, Side support, const Foothold& X_WS) const override {
-    return query_.DownIsFree(i, support, X_WS) ||
-           Certifies(volumes_.set.Down(i, support), X_WS, X_WS);
+    return query_.DownIsFree(i, support, X_WS) || Certifies(set_.Down(i, support), X_WS, X_WS);
   }
   bool UpIsFree(int i, Side support, const Foothold& X_WS) const override {
     if (query_.UpIsFree(i, support, X_WS)) return true;
-    const Foothold X_WF = X_WS * volumes_.set.Placement(i, support);
-    return Certifies(volumes_.set.Up(i, support), X_WF, X_WS);
+    const Foothold X_WF = X_WS * set_.Placement(i, support);
+    return Certifies(set_.Up(i, support), X_WF, X_WS);
   }
 
  private:
@@ -36,8 +35,8 @@ class NearStartQuery : public HalfStepQuery {
     return certifier_.Certifies(half_step, support);
   }
 
-  const SweptVolumes& volumes_;
-  const SweptVolumeQuery& query_;
+  const StepSet& set_;
+  const HalfStepQuery& query_;
   const HalfStepCertifier& certifier_;
   Eigen::Vector2d start_;
   mutable int left_ = 300;  // certificates

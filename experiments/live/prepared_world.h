@@ -1,28 +1,30 @@
 #pragma once
 
+#include <memory>
+
+#include "experiments/live/free_half_steps.h"
 #include "experiments/live/safety.h"
 #include "experiments/live/world.h"
-#include "experiments/run/planning.h"
-#include "planner/swept/swept_volume_query.h"
+#include "experiments/run/certified_half_steps.h"
 
 namespace halfstep {
 
 /// A world and all that is prepared for questions about it. Immutable, and safe to use from several
 /// threads.
 struct PreparedWorld {
-  /// `volumes` is borrowed. Clearances and no-step distances are those that the config demands.
+  /// `half_steps` is borrowed. Clearances and no-step distances are those that the config demands.
   PreparedWorld(const World& w, const RobotModel& robot, const ExperimentConfig& config,
-                const SweptVolumes& volumes)
+                const FreeHalfSteps& half_steps)
       : world(w),
         safety(robot, w.scene, config),
         certifier(safety.evaluator(), config.smoothing.certification),
-        query(volumes, robot.sole_outline, w.scene,
-              config.smoothing.limits.demanded_of(MarginFamily::kNoStep)) {}
+        query(half_steps.Among(w.scene)) {}
 
   const World world;                  ///< a copy: what follows borrows it
   const SafetyCheck safety;           ///< proofs of walks against it
   const HalfStepCertifier certifier;  ///< proofs of isolated half-steps
-  const SweptVolumeQuery query;       ///< of swept volumes, without the obstacles' past
+  /// What of the half-steps is free whenever it is executed; not null.
+  const std::unique_ptr<const HalfStepQuery> query;
 };
 
 }  // namespace halfstep

@@ -7,8 +7,8 @@ namespace halfstep {
 namespace {
 
 // All that the motion from the beginning of half-step j to its end depends on, when nothing comes
-// after it, seen from its support sole.
-std::string KeyOf(const SuperposedWalk& walk, int j) {
+// after it, seen from its support sole, and where that stands where it counts.
+std::string KeyOf(const SuperposedWalk& walk, int j, bool by_place) {
   std::string key;
   const auto add = [&key](double x) {
     constexpr double kRounding = 1e-12;  // [m], [rad], [s]; equal values may round apart, rarely
@@ -19,6 +19,7 @@ std::string KeyOf(const SuperposedWalk& walk, int j) {
     for (const double x : {place.x, place.y, place.yaw, place.height}) add(x);
   };
   const double begin = walk.start_of(j);
+  if (by_place) add_place(walk.X_WS(j));
   for (int i = j; i >= 0 && (i == j || walk.end_of(i) > begin); --i) {
     const HalfStep& half_step = walk.half_step(i);
     key.push_back(half_step.support == Side::kLeft ? 'l' : 'r');
@@ -38,13 +39,13 @@ std::string KeyOf(const SuperposedWalk& walk, int j) {
 }  // namespace
 
 bool RememberedHalfSteps::Knows(const SuperposedWalk& walk, int j) const {
-  const std::string key = KeyOf(walk, j);
+  const std::string key = KeyOf(walk, j, by_place_);
   const std::lock_guard lock(mutex_);
   return known_.contains(key);
 }
 
 void RememberedHalfSteps::Remember(const SuperposedWalk& walk, int j) {
-  std::string key = KeyOf(walk, j);
+  std::string key = KeyOf(walk, j, by_place_);
   const std::lock_guard lock(mutex_);
   known_.insert(std::move(key));
 }

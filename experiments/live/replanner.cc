@@ -41,11 +41,19 @@ Proposal WalkOf(const Situation& s) {
 Replanner::Replanner(const Place& place, const LiveConfig& config, const SweptVolumes& volumes)
     : robot_(place.robot),
       config_(config),
-      volumes_(volumes),
-      alone_(place.robot, place.scene.Emptied(), config.experiment) {}
+      half_steps_(volumes, place.robot, config.experiment),
+      alone_(place.robot, place.scene.Emptied(), config.experiment),
+      proved_alone_(HasLevels(*place.scene.ground)) {}
+
+Replanner::Replanner(const Place& place, const LiveConfig& config)
+    : robot_(place.robot),
+      config_(config),
+      half_steps_(place, config.experiment),
+      alone_(place.robot, place.scene.Emptied(), config.experiment),
+      proved_alone_(HasLevels(*place.scene.ground)) {}
 
 std::shared_ptr<const PreparedWorld> Replanner::Prepare(const World& world) const {
-  return std::make_shared<const PreparedWorld>(world, robot_, config_.experiment, volumes_);
+  return std::make_shared<const PreparedWorld>(world, robot_, config_.experiment, half_steps_);
 }
 
 bool Replanner::Arrives(const WalkPlan& plan, const World& world) const {
@@ -73,9 +81,9 @@ std::optional<Margin> Replanner::Prove(const Situation& s, const SuperposedWalk&
   const double since =
       first == s.begun ? s.now : walk.start_of(std::min(first, walk.num_half_steps() - 1));
   // Volumes know nothing of areas where soles already stand.
-  const bool by_volume = among.world.scene.no_step.empty();
+  const bool by_volume = half_steps_.volumes() != nullptr && among.world.scene.no_step.empty();
   const auto known = [&](int j) {
-    return by_volume && IsolatedAndFree(walk, j, volumes_, among.query);
+    return by_volume && IsolatedAndFree(walk, j, half_steps_.set(), *among.query);
   };
   const int until = std::min({last, proposal->robot_through, walk.num_half_steps() - 1});
   Safety safety = among.safety.AmongObstacles(walk, first, until, since, known);

@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "experiments/config/experiment.h"
+#include "experiments/live/free_half_steps.h"
 #include "experiments/live/live_config.h"
 #include "experiments/live/proposal.h"
 #include "experiments/live/remembered_half_steps.h"
 #include "experiments/live/safety.h"
-#include "planner/swept/swept_volumes.h"
 
 namespace halfstep {
 
@@ -29,9 +29,11 @@ struct PreparedWorld;
 /// `random` give the same proposal.
 class Replanner {
  public:
-  /// Of the place the robot and the ground count; what worlds hold is measured. `volumes` is
-  /// borrowed. Clearances of volumes are those that the config demands.
+  /// Of the place the robot and the ground count; what worlds hold is measured. Half-steps are
+  /// called free by `volumes`, which is borrowed; its clearances are those that the config demands.
   Replanner(const Place& place, const LiveConfig& config, const SweptVolumes& volumes);
+  /// The same with half-steps that are called free by their proofs.
+  Replanner(const Place& place, const LiveConfig& config);
 
   /// What questions about a world need, ready to be asked by several threads.
   std::shared_ptr<const PreparedWorld> Prepare(const World& world) const;
@@ -84,7 +86,7 @@ class Replanner {
 
   RobotModel robot_;
   LiveConfig config_;
-  const SweptVolumes& volumes_;
+  FreeHalfSteps half_steps_;
   SafetyCheck alone_;  // without obstacles
   mutable RememberedHalfSteps proved_alone_;
 };

@@ -13,13 +13,20 @@ PlanResult Replanner::Plan(const std::array<Foothold, 2>& stance,
                            const std::optional<StepState>& in_air, const PreparedWorld& among,
                            const NearRest* near, bool rests, std::int64_t max_nodes,
                            std::mt19937_64& random) const {
-  PlanResult result = Search(stance, in_air, among, near, among.query, max_nodes, random);
-  if (!rests || result.status != PlanStatus::kNoPlan) return result;
+  PlanResult result = Search(stance, in_air, among, near, *among.query, max_nodes, random);
+  const bool by_volumes = half_steps_.volumes() != nullptr;
+  if (!rests || result.status != PlanStatus::kNoPlan || (!by_volumes && !near)) return result;
   // Where the robot rests near an obstacle, it may take more than one half-step to get away.
-  const NearStartQuery query(volumes_, among.query, near ? near->certifier() : among.certifier,
-                             MidFeet(stance[0].Planar(), stance[1].Planar()).position());
   const std::int64_t nodes = result.nodes;
-  result = Search(stance, in_air, among, near, query, max_nodes - nodes, random);
+  if (by_volumes) {
+    const NearStartQuery query(half_steps_.set(), *among.query,
+                               near ? near->certifier() : among.certifier,
+                               MidFeet(stance[0].Planar(), stance[1].Planar()).position());
+    result = Search(stance, in_air, among, near, query, max_nodes - nodes, random);
+  } else {
+    const auto query = half_steps_.Among(near->safety().evaluator().scene());
+    result = Search(stance, in_air, among, near, *query, max_nodes - nodes, random);
+  }
   result.nodes += nodes;
   return result;
 }
@@ -29,17 +36,17 @@ PlanResult Replanner::Search(const std::array<Foothold, 2>& stance,
                              const NearRest* near, const HalfStepQuery& query,
                              std::int64_t max_nodes, std::mt19937_64& random) const {
   const PlannerConfig& options = config_.experiment.planner;
-  PlanRequest request{.start = stance,
-                      .in_air = in_air,
-                      .goal = among.world.goal,
-                      .set = volumes_.set,
-                      .query = query,
-                      .cost = options.Cost()};
+  PlanRequest request = half_steps_.Request(query);
+  request.start = stance;
+  request.in_air = in_air;
+  request.goal = among.world.goal;
+  request.cost = options.Cost();
   if (const auto& w = options.workspace; !w.empty()) {
     request.workspace = {Eigen::Vector2d(w[0], w[1]), Eigen::Vector2d(w[2], w[3])};
   }
   request.start_is_free = [&](const HalfStep& up, const Foothold& X_WS) {
-    return (near ? near->certifier() : among.certifier).Certifies(up, X_WS);
+    return up.X_SF.height <= up.via_height &&
+           (near ? near->certifier() : among.certifier).Certifies(up, X_WS);
   };
   request.stop = AnyOf({AfterNodes(max_nodes), options.unimproved_nodes == 0
                                                    ? AtFirstPlan()

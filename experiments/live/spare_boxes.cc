@@ -1,16 +1,16 @@
 #include "experiments/live/spare_boxes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
-#include "planner/ground/flat_floor.h"
 #include "wpg/files/input_error.h"
 
 namespace halfstep {
 
 Scene WithSpareBoxes(Scene scene, const LiveOptions& options) {
-  RequireFlatFloor(*scene.ground, "episode");
-  const double floor = scene.ground->HeightEverywhere();
+  const double lowest = scene.ground->Floor();
+  const double floor = std::isfinite(lowest) ? lowest : 0.0;
   for (const std::string& name : SpareNames(options)) {
     Obstacle box{.name = name, .shape = Box{{0.2, 0.2, 0.1}}};
     box.X_WO.translation().z() = floor + 0.05;

@@ -10,8 +10,8 @@
 
 namespace halfstep {
 
-/// The scene with them, behind its own obstacles: 0.2 × 0.2 × 0.1 m, at rest on the floor about the
-/// origin.
+/// The scene with them, behind its own obstacles: 0.2 × 0.2 × 0.1 m, at rest about the
+/// origin on the floor, or at z = 0 where there is none.
 Scene WithSpareBoxes(Scene scene, const LiveOptions& options);
 
 /// Where an episode takes place: what its config names, and the spare boxes. Throws InputError.

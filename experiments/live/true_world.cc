@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "experiments/config/experiment.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/text.h"
 #include "wpg/geometry/rotation.h"
@@ -39,7 +40,7 @@ Eigen::Isometry3d After(const Eigen::Isometry3d& from, const ScriptEvent& event,
 
 TrueWorld::TrueWorld(const Scene& scene, const GoalConfig& goal, const LiveOptions& options)
     : scene_(scene),
-      goal_(goal),
+      goal_(GoalOn(goal, *scene.ground)),
       script_(options.script),
       own_(scene.obstacles.size() -
            std::min(scene.obstacles.size(), static_cast<size_t>(options.spare_boxes))),
@@ -150,7 +151,7 @@ bool TrueWorld::AreaIsThere(size_t area, double t) const {
 }
 
 GoalRegion TrueWorld::GoalAt(double t) const {
-  GoalRegion goal = goal_.Region();
+  GoalRegion goal = goal_;
   for (const ScriptEvent& event : script_) {
     if (event.what != "goal" || event.at > t) continue;
     goal.X_WG.x = event.goal[0];

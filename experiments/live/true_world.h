@@ -59,7 +59,7 @@ class TrueWorld {
   void TakeIn(size_t obstacle, const ScriptEvent& event);
 
   Scene scene_;
-  GoalConfig goal_;
+  GoalRegion goal_;  // where it is at the beginning
   std::vector<ScriptEvent> script_;
   std::vector<std::vector<ScriptEvent>> of_obstacle_;
   size_t own_ = 0;       // obstacles that are no spare boxes

@@ -10,13 +10,13 @@
 #include "wpg/elementary.h"
 #include "wpg/files/text.h"
 #include "wpg/geometry/pose2.h"
+#include "wpg/robot/reference_leg.h"
 #include "wpg/robot/robot_legs.h"
 
 namespace halfstep {
 namespace {
 
-constexpr double kLegLengthOfHrp2 = 0.705;  // [m]; the ranges below are for it
-constexpr double kLeastDuration = 0.6;      // of a half-step that configs take [s]
+constexpr double kLeastDuration = 0.6;  // of a half-step that configs take [s]
 
 /// What a kind's footsteps do from one to the next, seen from the middle of the feet: from `least`
 /// to `most`, to either side where that is told.
@@ -48,7 +48,7 @@ class ReferenceDrawing {
       : names_(names),
         robot_(robot),
         random_(random),
-        scale_(StretchedLength(robot.legs[0]) / kLegLengthOfHrp2),
+        scale_(StretchedLength(robot.legs[0]) / kLegOfHrp2),
         kind_(kind) {}
 
   DrawnReference Draw() {

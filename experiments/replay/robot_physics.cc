@@ -4,13 +4,13 @@
 #include <cmath>
 
 #include "wpg/files/number_text.h"
+#include "wpg/robot/reference_leg.h"
 #include "wpg/robot/robot_measures.h"
 
 namespace halfstep::replay {
 namespace {
 
-constexpr double kLegLength = 0.705;  // of HRP-2 [m]
-constexpr double kMass = 56.9;        // [kg]
+constexpr double kMass = 56.9;  // [kg]
 
 // To three digits: HRP-2's numbers stay what they are.
 double Rounded(double value) { return Shortened(value, 3); }
@@ -19,7 +19,7 @@ double Scaled(double hrp2, double scale) { return Rounded(hrp2 * scale); }
 }  // namespace
 
 RobotScale ScaleOf(const RobotModel& robot) {
-  const double length = Rounded(LegLengthOf(robot)) / kLegLength;
+  const double length = Rounded(LegLengthOf(robot)) / kLegOfHrp2;
   return {.length = length, .mass = Rounded(robot.mass) / kMass, .time = std::sqrt(length)};
 }
 

@@ -5,6 +5,15 @@ export class Instant {
   constructor(columns) {
     this.index = Object.fromEntries(columns.map((name, i) => [name, i]));
     this.row = null;
+    this.rise = NaN; // from the ground to the CoM [m]
+  }
+
+  /** How high the pendulum stands [m]; it did so at the lower sole when the first row came. */
+  groundAt() {
+    if (Number.isNaN(this.rise)) {
+      this.rise = this.value("com_z_m") - Math.min(this.sole("left").z, this.sole("right").z);
+    }
+    return this.value("com_z_m") - this.rise;
   }
 
   locate() { return {}; }

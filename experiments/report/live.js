@@ -147,8 +147,8 @@ function thingsIn(world) {
     const box = new THREE.Box3().setFromObject(mesh);
     return { name, mesh, anchor: new THREE.Vector3(mesh.position.x, mesh.position.y, box.max.z) };
   });
-  const { x_m: x, y_m: y } = world.goal;
-  return [...things, { name: "goal", mesh: view.goal, anchor: new THREE.Vector3(x, y, 0.01) }];
+  const { x_m: x, y_m: y, z_m: z = 0 } = world.goal;
+  return [...things, { name: "goal", mesh: view.goal, anchor: new THREE.Vector3(x, y, z + 0.01) }];
 }
 
 function stateText(t, plan, begun) {
@@ -189,7 +189,7 @@ function ahead() {
   const goal = record.worldAt(now())?.goal ?? { x_m: x, y_m: y };
   const [dx, dy] = [goal.x_m - x, goal.y_m - y];
   const part = Math.min(0.5, 0.8 / Math.max(1e-6, Math.hypot(dx, dy)));
-  return [x + part * dx, y + part * dy];
+  return [x + part * dx, y + part * dy, view.ground ?? 0];
 }
 
 function look() {

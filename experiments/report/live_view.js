@@ -55,6 +55,8 @@ const looks = {
   "to come": { fill: 0, width: 0.004, dashed: true },
 };
 
+const placeOf = (step) => ({ x: step.x_m, y: step.y_m, z: step.z_m, yaw: step.yaw_rad });
+
 export class LiveView {
   /** `drawn`: the message `draw`, whose obstacles are about their own origins. */
   constructor(stage, drawn, hello) {
@@ -73,6 +75,7 @@ export class LiveView {
       stage.scene.add(mesh);
       return [json.name, { name: json.name, mesh, shell, box: mesh.geometry.boundingBox }];
     }));
+    stage.setGround(drawn.scene);
     this.areas = drawn.scene.no_step.map(areaMark);
     this.goal = new THREE.Group();
     const radius = hello.goal_radius_m;
@@ -101,6 +104,7 @@ export class LiveView {
     }
     this.actor.pose(t);
     this.waist = this.actor.figure.group.position;
+    this.ground = walk.groundAt(walk.locate(t));
   }
 
   /** What was known of the world at t. */
@@ -117,7 +121,7 @@ export class LiveView {
       }
       shell.grow(uncertainty(measured, t - world.measured_s));
     }
-    this.goal.position.set(world.goal.x_m, world.goal.y_m, 0);
+    this.goal.position.set(world.goal.x_m, world.goal.y_m, world.goal.z_m ?? 0);
     this.areas.forEach((area, i) => { area.visible = world.areas.includes(i + 1); });
   }
 
@@ -128,7 +132,7 @@ export class LiveView {
     this.planKey = key;
     const group = emptied(this.groups.footsteps);
     walk.footsteps.forEach((step, i) => {
-      const place = { x: step.x_m, y: step.y_m, yaw: step.yaw_rad };
+      const place = placeOf(step);
       const { fill, width, dashed } = looks[i < 2 ? "begun" : stageOf(i, begun, through)];
       const colour = palette.feet[step.foot === "left" ? 0 : 1];
       const corners = soleCorners(place, this.sole);
@@ -165,7 +169,7 @@ export class LiveView {
     const group = new THREE.Group();
     walk.footsteps.forEach((step, i) => {
       if (same(step, next.footsteps[i])) return;
-      const corners = soleCorners({ x: step.x_m, y: step.y_m, yaw: step.yaw_rad }, this.sole);
+      const corners = soleCorners(placeOf(step), this.sole);
       group.add(outline(corners, 0.005, 0.003, palette.second, 0.75, 5, true));
     });
     return group;

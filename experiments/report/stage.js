@@ -71,7 +71,13 @@ function sceneGroup(json, moving) {
     group.add(mesh);
   }
   for (const polygon of json.no_step) group.add(areaMark(polygon));
-  // What stands out of the floor; marks lie on it.
+  group.add(groundGroup(json));
+  return group;
+}
+
+/** What stands out of the floor; marks lie on it. */
+function groundGroup(json) {
+  const group = new THREE.Group();
   for (const one of json.ground?.solids ?? []) group.add(solidMesh(one, bearing, risers, -4));
   return group;
 }
@@ -131,9 +137,19 @@ export class Stage {
     this.place.clear();
     this.moving = [];
     this.place.add(sceneGroup(json, this.moving));
+    this.showFloor(json);
+    this.showTime(0);
+  }
+
+  /** Without obstacles and areas. */
+  setGround(json) {
+    this.place.add(groundGroup(json));
+    this.showFloor(json);
+  }
+
+  showFloor(json) {
     this.hasFloor = json.ground?.floor ?? true;
     this.floor.visible = this.hasFloor;
-    this.showTime(0);
   }
 
   /** Puts the obstacles that move where they are at `t` [s]. */

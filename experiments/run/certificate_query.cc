@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "experiments/config/experiment.h"
 #include "experiments/run/isolated_step.h"
@@ -11,12 +12,13 @@
 namespace halfstep {
 
 CertificateQuery::CertificateQuery(const StepSet& set, const MarginEvaluator& evaluator,
-                                   const CertificationOptions& options)
+                                   const CertificationOptions& options,
+                                   std::vector<MarginFamily> families)
     : set_(set),
       model_(MotionModelOf(evaluator.robot(), set.prototype.shape)),
       // Eight instants refute most of what is not feasible.
       sampled_(evaluator, 0.125 * set.prototype.duration),
-      certified_(evaluator, options),
+      certified_(evaluator, options, {.families = std::move(families)}),
       heights_(evaluator.robot(), evaluator.scene(),
                evaluator.limits().demanded_of(MarginFamily::kFoothold)),
       scratch_(evaluator.MakeScratch()) {

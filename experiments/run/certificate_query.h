@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <vector>
 
 #include "experiments/run/sole_heights.h"
 #include "planner/search/half_step_query.h"
@@ -24,10 +25,11 @@ namespace halfstep {
 /// certificates".
 class CertificateQuery : public HalfStepQuery {
  public:
-  /// `set` is borrowed and must outlive this. Preconditions: all elements are level, and nothing in
-  /// the evaluator's scene moves (std::logic_error).
+  /// `set` is borrowed and must outlive this. Nothing but `families` is proved. Preconditions: all
+  /// elements are level, and nothing in the evaluator's scene moves (std::logic_error).
   CertificateQuery(const StepSet& set, const MarginEvaluator& evaluator,
-                   const CertificationOptions& options);
+                   const CertificationOptions& options,
+                   std::vector<MarginFamily> families = CertificationScope{}.families);
 
   bool DownIsFree(int i, Side support, const Foothold& X_WS) const override;
   bool UpIsFree(int i, Side support, const Foothold& X_WS) const override;

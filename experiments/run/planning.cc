@@ -120,14 +120,11 @@ void SearchWith(const Search& search, const Place& place, const PlanningHooks& h
   const HalfStep prototype = PrototypeOf(config);
 
   PlanRequest request{.start = StartOf(config, place.robot, ground),
-                      .goal = config.goal.Region(),
+                      .goal = GoalOn(config.goal, ground),
                       .set = search.set,
                       .query = search.query,
                       .cost = config.planner.Cost(),
                       .ground = search.ground};
-  if (const auto level = ChosenLevel(ground, "goal", {.name = config.goal.level})) {
-    request.goal.height = level->height;
-  }
   if (HasLevels(ground) && !search.ground) {
     for (const GroundLevel& level : ground.Levels()) request.levels.push_back(level.height);
     std::ranges::sort(request.levels);
@@ -248,7 +245,7 @@ PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
                       " plans at one height only, and the scene's ground has levels (valid: rrt, "
                       "astar, astar/classic)"});
   }
-  ChosenLevel(ground, "goal", {.name = config.goal.level});
+  GoalOn(config.goal, ground);  // complains before anything is computed
   const bool by_certificates = ByCertificates(config, place.scene);
   if (by_certificates && AnythingMoves(place.scene)) {
     throw InputError(

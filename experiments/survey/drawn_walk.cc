@@ -15,12 +15,12 @@
 #include "wpg/files/input_error.h"
 #include "wpg/files/text.h"
 #include "wpg/nth.h"
+#include "wpg/robot/reference_leg.h"
 #include "wpg/robot/robot_legs.h"
 
 namespace halfstep {
 namespace {
 
-constexpr double kLegOfHrp2 = 0.705;  // [m]; the draws below are for it
 constexpr int kDraws = 1000;
 
 // How a walk goes on from footstep to footstep, seen from the middle of the feet.

@@ -14,12 +14,12 @@
 #include "smoothing/proof/sampled_feasibility.h"
 #include "wpg/files/text.h"
 #include "wpg/nth.h"
+#include "wpg/robot/reference_leg.h"
 
 namespace halfstep {
 namespace {
 
 constexpr int kSamples = 20;            // of a half-step
-constexpr double kHrp2sLeg = 0.705;     // [m]
 constexpr double kBarUnit = 0.005;      // of a bar's height for HRP-2's size [m]
 constexpr double kBarThickness = 0.01;  // for HRP-2's size [m]
 constexpr double kLateFoot = 0.19;      // HalfStepShape::foot_delay of a foot that rises first
@@ -218,7 +218,7 @@ class RobotChecker {
 
   // By halves: what is told is certified, whether or not all lower bars are.
   void StepOver() {
-    const double size = check_.measures.leg_length / kHrp2sLeg;
+    const double size = check_.measures.leg_length / kLegOfHrp2;
     const double unit = kBarUnit * size;
     SteppedBar bar{.thickness = kBarThickness * size, .stride = check_.reach.stride};
     int over = 0, beyond = static_cast<int>(check_.half_step.via_height / unit) + 1;

@@ -22,15 +22,6 @@ std::string Active(const MarginEvaluator& evaluator, const std::string& method,
   return junction.overlap < junction.upper_bound ? "not bisected" : "upper bound";
 }
 
-// Whether a sole of the plan stands elsewhere than at z = 0.
-bool HasHeights(const HalfStepSequence& sequence) {
-  const auto is_high = [](const Foothold& X_WF) { return X_WF.height != 0.0; };
-  return std::ranges::any_of(sequence.start, is_high) ||
-         std::ranges::any_of(sequence.half_steps, [&](const PlacedHalfStep& placed) {
-           return is_high(placed.X_WS) || is_high(placed.half_step.X_SF);
-         });
-}
-
 // Levels are whole nanometres; a height that was added up is rounded.
 Foothold OnItsLevel(Foothold X_WF) {
   X_WF.height = WholeNanometres(X_WF.height);
@@ -46,6 +37,14 @@ std::optional<double> BoundOf(const std::vector<MethodRun>& runs) {
 }
 
 }  // namespace
+
+bool HasHeights(const HalfStepSequence& sequence) {
+  const auto is_high = [](const Foothold& X_WF) { return X_WF.height != 0.0; };
+  return std::ranges::any_of(sequence.start, is_high) ||
+         std::ranges::any_of(sequence.half_steps, [&](const PlacedHalfStep& placed) {
+           return is_high(placed.X_WS) || is_high(placed.half_step.X_SF);
+         });
+}
 
 CsvColumns FootstepsColumns(bool with_heights) {
   CsvColumns columns = {

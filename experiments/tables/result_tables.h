@@ -36,6 +36,8 @@ struct MethodRun {
   std::optional<WalkReplay> replay;  ///< none: it was not simulated
 };
 
+/// Whether a sole of the plan stands elsewhere than at z = 0.
+bool HasHeights(const HalfStepSequence& sequence);
 /// Columns of footsteps.csv; those of a plan with a sole elsewhere than at z = 0 have its height.
 CsvColumns FootstepsColumns(bool with_heights);
 /// Each table of a run folder; columns: experiments/README.md.

@@ -32,16 +32,20 @@ bool InGoal(const Pose2& X_W, const GoalConfig& goal, const Eigen::Vector2d& cen
   return std::abs(turn) <= *goal.yaw_tolerance + kEndRounding;
 }
 
-// Whether the part of a stance that counts is in the goal.
-bool StandsInGoal(const std::array<Pose2, 2>& feet, const GoalConfig& goal,
+// Whether the part of a stance that counts is in the goal, at its height.
+bool StandsInGoal(const std::array<Foothold, 2>& stance, const EpisodeGoal& of_episode,
                   const Eigen::Vector2d& center) {
+  const auto& [goal, height] = of_episode;
+  const std::array<Pose2, 2> feet = {stance[0].Planar(), stance[1].Planar()};
+  const std::array<bool, 2> level = {!height || stance[0].height == *height,
+                                     !height || stance[1].height == *height};
   if (goal.part == "mid_feet") {
     const Pose2 middle{(feet[0].x + feet[1].x) / 2, (feet[0].y + feet[1].y) / 2,
                        (feet[0].yaw + feet[1].yaw) / 2};
-    return InGoal(middle, goal, center);
+    return level[0] && level[1] && InGoal(middle, goal, center);
   }
-  return (goal.part != "right_foot" && InGoal(feet[0], goal, center)) ||
-         (goal.part != "left_foot" && InGoal(feet[1], goal, center));
+  return (goal.part != "right_foot" && level[0] && InGoal(feet[0], goal, center)) ||
+         (goal.part != "left_foot" && level[1] && InGoal(feet[1], goal, center));
 }
 
 }  // namespace
@@ -98,7 +102,7 @@ void CheckEpisodeTrajectory(const std::vector<PlayedRow>& rows, const EpisodeMan
 
 void CheckEpisodeEnding(const EpisodeText& episode, const EpisodeManifest& manifest,
                         const EpisodeWalks& all, const DescribedWalk& executed,
-                        const GoalConfig& goal, Findings* findings) {
+                        const EpisodeGoal& goal, Findings* findings) {
   if (manifest.stopped &&
       static_cast<int>(episode.begun.size()) >= all.walks.back().num_half_steps()) {
     findings->Disagree("manifest.json: stopped: nothing of the last walk was left to be cut");
@@ -122,9 +126,9 @@ void CheckEpisodeEnding(const EpisodeText& episode, const EpisodeManifest& manif
     return wrong(Formatted("it walks until %.9g s", executed.end()));
   }
   const auto& [down, X_WS] = all.planned.back().half_steps[begun - 1];
-  std::array<Pose2, 2> feet;
-  Nth(feet, Index(down.support)) = X_WS.Planar();
-  Nth(feet, Index(down.swing())) = (X_WS * down.X_SF).Planar();
+  std::array<Foothold, 2> feet;
+  Nth(feet, Index(down.support)) = X_WS;
+  Nth(feet, Index(down.swing())) = X_WS * down.X_SF;
   if (!StandsInGoal(feet, goal, episode.worlds.back().goal)) {
     wrong(Formatted("its last stance is not in the goal of world %d", episode.worlds.back().world));
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "experiments/config/planning_config.h"
@@ -25,10 +26,15 @@ void CheckWhatBegan(const EpisodeText& episode, const EpisodeManifest& manifest,
 void CheckEpisodeTrajectory(const std::vector<PlayedRow>& rows, const EpisodeManifest& manifest,
                             const DescribedWalk& executed, double period, Findings* findings);
 
+/// Where an episode ends.
+struct EpisodeGoal {
+  const GoalConfig& config;           ///< as the config has it, but for its place
+  std::optional<double> height = {};  ///< of the level that it names [m]
+};
 /// Whether the ending of manifest.json is one of those that there are; "arrived" only if the robot
 /// rests on both feet by `end_s`, in the goal where the newest world has it.
 void CheckEpisodeEnding(const EpisodeText& episode, const EpisodeManifest& manifest,
                         const EpisodeWalks& all, const DescribedWalk& executed,
-                        const GoalConfig& goal, Findings* findings);
+                        const EpisodeGoal& goal, Findings* findings);
 
 }  // namespace halfstep::verify

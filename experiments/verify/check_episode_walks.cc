@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "experiments/verify/check_overlaps.h"
+#include "experiments/verify/level_tops.h"
 
 namespace halfstep::verify {
 namespace {
@@ -33,6 +34,7 @@ WalkPlan PlanOf(const std::vector<FootstepRow>& rows, const EpisodeWalkFrame& fr
     findings->Disagree(path + ": no footstep");
     return none;
   }
+  const LevelTops ground(frame.scene);
   std::vector<PlannedFootstep> footsteps;
   for (size_t i = 0; i < rows.size(); ++i) {
     const FootstepRow& row = rows[i];
@@ -47,9 +49,14 @@ WalkPlan PlanOf(const std::vector<FootstepRow>& rows, const EpisodeWalkFrame& fr
       return none;
     }
     if (i >= 2) {
-      footsteps.push_back(
-          {side, Foothold(row.X_WF, frame.start[0].height), row.via_height, row.duration});
-    } else if (static_cast<size_t>(Index(side)) != i || !Near(row.X_WF, frame.start[i].Planar())) {
+      const double z = ground.even() ? frame.start[0].height : row.z;
+      if (!ground.even() && ground.HeightUnder(frame.robot, row.X_WF, z) != z) {
+        findings->Disagree(line + Formatted("no level at z = %.9g m bears all of the sole", z));
+        return none;
+      }
+      footsteps.push_back({side, Foothold(row.X_WF, z), row.via_height, row.duration});
+    } else if (static_cast<size_t>(Index(side)) != i || !Near(row.X_WF, frame.start[i].Planar()) ||
+               (!ground.even() && !Near(row.z, frame.start[i].height))) {
       findings->Disagree(line + "the walk does not start where config.yaml says");
     } else if (!Near(row.via_height, 0) || !Near(row.duration, 0)) {
       findings->Disagree(line + "no step leads to a foot that stands at the start");
@@ -147,7 +154,11 @@ EpisodeWalks CheckEpisodeWalks(const EpisodeText& episode, const EpisodeWalkFram
       return all;
     }
     try {
-      all.walks.emplace_back(frame.robot, planned, text.half_steps);
+      if (LevelTops(frame.scene).even()) {
+        all.walks.emplace_back(frame.robot, planned, text.half_steps);
+      } else {
+        all.walks.emplace_back(frame.robot, planned, text.half_steps, frame.scene.ground->Floor());
+      }
     } catch (const std::logic_error& error) {
       findings->Disagree(folder + "/half_steps.csv: describes no walk: " + error.what());
       return all;

@@ -15,6 +15,7 @@ struct EpisodeWalkFrame {
   const RobotModel& robot;        ///< that walks
   std::array<Foothold, 2> start;  ///< soles, by Index(Side)
   HalfStep half_step;             ///< what all have in common
+  const Scene& scene;             ///< whose ground bears the soles
 };
 
 /// The walks of an episode, by number; those before the last only as rows. Borrows the robot.
@@ -24,10 +25,11 @@ struct EpisodeWalks {
 };
 
 /// Makes the walks that walks/NNN/footsteps.csv and half_steps.csv describe, and checks that they
-/// are walks: rows that fit the footsteps, the config's start, overlaps within their natural bounds
-/// by starts and durations, one height scale and support point a step, numbers of footsteps and
-/// durations as in plans.csv, which are handed over in order, the first at 0. Fewer walks than are
-/// asked for when one describes none; then the other checks cannot be made.
+/// are walks: footsteps at the height of a level that bears them, rows that fit the footsteps, the
+/// config's start, overlaps within their natural bounds by starts and durations, one height scale
+/// and support point a step, numbers of footsteps and durations as in plans.csv, which are handed
+/// over in order, the first at 0. Fewer walks than are asked for when one describes none; then the
+/// other checks cannot be made.
 EpisodeWalks CheckEpisodeWalks(const EpisodeText& episode, const EpisodeWalkFrame& frame,
                                Findings* findings);
 

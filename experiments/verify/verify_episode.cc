@@ -71,11 +71,6 @@ Place PlaceOf(const VerifyOptions& options, const LiveConfig& config,
                              .sha256 = manifest.scene_sha256})
                       .input;
   }
-  if (!place.scene.ground->OnlyLevel()) {
-    throw InputError(
-        {"verify: levels of an episode's ground are not derived here (valid: an "
-         "episode on the flat floor)"});
-  }
   place.robot =
       WithAccelerations(std::move(place.robot), experiment.smoothing.assumed_acceleration);
   place.scene = WithSpareBoxes(std::move(place.scene), config.live);
@@ -108,13 +103,15 @@ void CheckEpisodeWalking(const VerifyOptions& options, const EpisodeText& episod
                          const EpisodeManifest& manifest, const LiveConfig& config,
                          const Place& place, const EpisodePromise& promise, Findings* findings) {
   const ExperimentConfig& experiment = config.experiment;
-  const std::array<Pose2, 2> start = StartSoles(experiment, place.robot);
-  const EpisodeWalks all =
-      CheckEpisodeWalks(episode,
-                        {.robot = place.robot,
-                         .start = {Foothold::Level(start[0]), Foothold::Level(start[1])},
-                         .half_step = HalfStepOf(experiment.half_step)},
-                        findings);
+  const LevelTops ground(place.scene);
+  const auto start = StartOn(experiment, place.robot, ground, findings);
+  if (!start) return;
+  const EpisodeWalks all = CheckEpisodeWalks(episode,
+                                             {.robot = place.robot,
+                                              .start = *start,
+                                              .half_step = HalfStepOf(experiment.half_step),
+                                              .scene = place.scene},
+                                             findings);
   const std::string path = (fs::path(options.run) / "trajectory.csv").string();
   const std::vector<PlayedRow> rows = ReadTrajectory(path, ReadBytes(path), place.robot);
   if (all.walks.size() != episode.walks.size()) return;
@@ -125,7 +122,8 @@ void CheckEpisodeWalking(const VerifyOptions& options, const EpisodeText& episod
   CheckWhatBegan(episode, manifest, executed, findings);
   const double period = experiment.output_period.value_or(kRowPeriod);
   CheckEpisodeTrajectory(rows, manifest, executed, period, findings);
-  CheckEpisodeEnding(episode, manifest, all, executed, experiment.goal, findings);
+  CheckEpisodeEnding(episode, manifest, all, executed,
+                     {experiment.goal, ground.HeightNamed(experiment.goal.level)}, findings);
   CheckEpisodeProof(
       episode, all.walks.back(), place.scene, DemandsOf(experiment.smoothing.limits, findings),
       {.period = period, .tolerance = options.tolerance.value_or(Tolerances(place.robot).played)},

@@ -3,21 +3,21 @@
 #include <algorithm>
 
 #include "wpg/robot/gravity.h"
+#include "wpg/robot/reference_leg.h"
 #include "wpg/robot/robot_measures.h"
 
 namespace halfstep {
 namespace {
 
-constexpr double kLegLength = 0.705;  // of HRP-2 [m]
 constexpr double kOfWeight = 2.5e-9;  // of m·g·ℓ: 1e-6 N m for HRP-2
 
 }  // namespace
 
 Rounding::Rounding(const RobotModel& robot)
-    : zmp(1e-9 * LegLengthOf(robot) / kLegLength),
+    : zmp(1e-9 * LegLengthOf(robot) / kLegOfHrp2),
       torque(kOfWeight * robot.mass * kGravity * LegLengthOf(robot)),
       friction(1e-9),
-      acceleration(1e-6 * kLegLength / LegLengthOf(robot)),
+      acceleration(1e-6 * kLegOfHrp2 / LegLengthOf(robot)),
       length_(LegLengthOf(robot)) {}
 
 double Rounding::Of(const WalkState& quantities) const {
