@@ -9,6 +9,7 @@
 #include "experiments/replay/planned_row.h"
 #include "experiments/replay/simulated_obstacles.h"
 #include "planner/scene/no_step_areas.h"
+#include "planner/ground/flat_floor.h"
 #include "wpg/files/text.h"
 #include "wpg/nth.h"
 
@@ -59,6 +60,8 @@ EpisodePhysics::EpisodePhysics(EpisodeRobot robot, const TrueWorld& truth,
       options_(robot_.setup.play),
       contacts_(ModelOf(robot_)),
       dcm_(ModelOf(robot_), robot_.setup.model.ankle, kFilter) {
+  // Where the robot strays to, edges are elsewhere than a walk's soles know.
+  RequireFlatFloor(*truth.scene().ground, "--in-physics");
   options_.row_period = options.period;
   options_.drift_window = options.horizon;
   // A period is a whole number of time steps.

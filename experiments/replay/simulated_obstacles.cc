@@ -5,7 +5,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "planner/ground/flat_floor.h"
 #include "wpg/check.h"
 #include "wpg/files/text.h"
 
@@ -58,8 +57,8 @@ SimulatedObstacles ObstaclesOf(const Scene& scene) {
 }
 
 SimulatedObstacles ObstaclesOf(const TrueWorld& truth) {
-  RequireFlatFloor(*truth.scene().ground, "simulation");
   SimulatedObstacles all;
+  all.ground = GroundOf(*truth.scene().ground);
   const auto shared = std::make_shared<const TrueWorld>(truth);
   for (size_t i = 0; i < truth.scene().obstacles.size(); ++i) {
     const auto pose = [shared, i](double t) {

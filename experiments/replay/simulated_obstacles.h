@@ -33,8 +33,8 @@ struct SimulatedObstacles {
 /// The obstacles of a scene, which move as the scene says, and its ground. Precondition: its floor,
 /// if it has one, is at z = 0 (std::logic_error).
 SimulatedObstacles ObstaclesOf(const Scene& scene);
-/// The obstacles of an episode, which move and are there as the script says, not as was measured.
-/// Throws InputError where its ground is not the plane z = 0 alone.
+/// The obstacles of an episode, which move and are there as the script says, not as was measured,
+/// and its ground. Precondition: the same.
 SimulatedObstacles ObstaclesOf(const TrueWorld& truth);
 
 }  // namespace halfstep::replay

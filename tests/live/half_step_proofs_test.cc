@@ -30,7 +30,7 @@ class HalfStepProofsTest : public testing::Test {
 TEST_F(HalfStepProofsTest, AreRememberedWhereverAndWheneverTheHalfStepIs) {
   const WalkPlan plan = Begin(3).plan;
   const SuperposedWalk walk = plan.Walk();
-  RememberedHalfSteps remembered;
+  RememberedHalfSteps remembered(/*by_place=*/false);
   for (int j = 0; j < walk.num_half_steps(); ++j) {
     remembered.Remember(walk, j);
     EXPECT_TRUE(remembered.Knows(walk, j));
@@ -50,7 +50,7 @@ TEST_F(HalfStepProofsTest, AreRememberedWhereverAndWheneverTheHalfStepIs) {
 
 TEST_F(HalfStepProofsTest, AreNotRememberedOfAnotherOverlap) {
   WalkPlan plan = Begin(3).plan;
-  RememberedHalfSteps remembered;
+  RememberedHalfSteps remembered(/*by_place=*/false);
   remembered.Remember(plan.Walk(), 1);
   EXPECT_FALSE(remembered.Knows(plan.Walk(), 3));
   plan.parameters.overlaps[1] += 1e-9;  // what comes after is no part of it
@@ -62,7 +62,7 @@ TEST_F(HalfStepProofsTest, AreNotRememberedOfAnotherOverlap) {
 // Nor of another form, whatever number of it differs.
 TEST_F(HalfStepProofsTest, AreNotRememberedOfAnotherForm) {
   const WalkPlan plan = Begin(3).plan;
-  RememberedHalfSteps remembered;
+  RememberedHalfSteps remembered(/*by_place=*/false);
   remembered.Remember(plan.Walk(), 1);
   for (const ParameterFamily family : AllParameterFamilies()) {
     const ParameterFamilyTraits& traits = Traits(family);
@@ -79,7 +79,7 @@ TEST_F(HalfStepProofsTest, AreNotRememberedOfAnotherForm) {
 TEST_F(HalfStepProofsTest, OfVolumesAreThoseOfTheCertificate) {
   const WalkPlan plan = Begin(0).plan;
   const SuperposedWalk walk = plan.Walk();
-  const SweptVolumes& volumes = *small_.baked.cached.volumes;
+  const StepSet& set = small_.baked.cached.volumes->set;
   std::mt19937_64 random(2);
   std::uniform_real_distribution<double> along(-0.3, 1.5), across(-0.5, 0.5);
   int free = 0, met = 0;
@@ -87,7 +87,7 @@ TEST_F(HalfStepProofsTest, OfVolumesAreThoseOfTheCertificate) {
     world_.scene.obstacles = {Bar("bar", along(random), across(random))};
     const auto among = replanner_.Prepare(world_);
     for (int j = 1; j < walk.num_half_steps(); ++j) {
-      const bool is_free = IsolatedAndFree(walk, j, volumes, among->query);
+      const bool is_free = IsolatedAndFree(walk, j, set, *among->query);
       ++(is_free ? free : met);
       if (!is_free) continue;
       EXPECT_EQ(among->safety.AmongObstacles(walk, j, j, 0.0).through, j);
@@ -99,9 +99,9 @@ TEST_F(HalfStepProofsTest, OfVolumesAreThoseOfTheCertificate) {
   overlapping.parameters.overlaps[2] = 0.1;
   world_.scene.obstacles.clear();
   const auto empty = replanner_.Prepare(world_);
-  EXPECT_TRUE(IsolatedAndFree(walk, 2, volumes, empty->query));
-  EXPECT_FALSE(IsolatedAndFree(overlapping.Walk(), 2, volumes, empty->query));
-  EXPECT_FALSE(IsolatedAndFree(overlapping.Walk(), 3, volumes, empty->query));
+  EXPECT_TRUE(IsolatedAndFree(walk, 2, set, *empty->query));
+  EXPECT_FALSE(IsolatedAndFree(overlapping.Walk(), 2, set, *empty->query));
+  EXPECT_FALSE(IsolatedAndFree(overlapping.Walk(), 3, set, *empty->query));
 }
 
 // It was refused for what comes after the rest, and then nothing was ever planned again.
