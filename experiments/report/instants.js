@@ -35,6 +35,7 @@ export class Rows {
 
   column(name) { return this.rows.map((row) => row[this.index[name]] ?? NaN); }
   value(name, row) { return this.rows[row][this.index[name]] ?? NaN; }
+  supportAt({ row }) { return this.rows[row][this.index.support]; }
   get length() { return this.rows.length; }
 }
 
@@ -45,6 +46,7 @@ export function rowsOf(walk, from, span) {
   return {
     column: (name) => walk.column(name).slice(first, last + 1),
     value: (name, row) => walk.column(name)[first + row],
+    supportAt: ({ row }) => walk.supportAt({ row: first + row }),
     length: last + 1 - first,
   };
 }
