@@ -83,7 +83,16 @@ TEST(LevelEpisode, ArrivesAroundWhatIsCarriedIntoItsWayAndIsVerified) {
   EXPECT_EQ(read.walks.back().plan.sequence.half_steps.back().X_WS.height, 0.11);
   const auto verified = verify::VerifyRun({.run = path});
   ASSERT_EQ(verified.size(), 1u);
-  EXPECT_TRUE(verified[0].verified) << testing::PrintToString(verified[0].complaints);
+  EXPECT_TRUE(verified[0].verified) << testing::PrintToString(verified[0].reasons);
+
+  // A sole in the air is found without any hash.
+  const std::string footsteps = path + "/walks/000/footsteps.csv";
+  std::string text = ReadText(footsteps);
+  const size_t at = text.find(",0.04,");
+  ASSERT_NE(at, std::string::npos);
+  WriteText(footsteps, text.replace(at, 6, ",0.05,"));
+  EXPECT_THAT(verify::VerifyRun({.run = path})[0].reasons,
+              testing::Contains(HasSubstr("no level at z = 0.05 m bears all of the sole")));
 }
 
 TEST(LevelEpisode, AnObstacleInTheWayIsAllThatCountsBeyondTheGround) {
