@@ -7,6 +7,9 @@
 #include "experiments/run/certificate_query.h"
 #include "experiments/run/ground_steps.h"
 #include "experiments/run/half_step_forms.h"
+#include "experiments/run/half_step_table.h"
+#include "experiments/run/level_crossings.h"
+#include "experiments/run/narrow_surfaces.h"
 #include "experiments/run/plan_inputs.h"
 #include "experiments/tables/not_covered_json.h"
 #include "planner/search/planners.h"
@@ -194,16 +197,21 @@ void PlanByCertificates(const Place& place, const PlanningHooks& hooks, PlannedW
 
 // The same with the first form that has a plan.
 void PlanByForms(const Place& place, const PlanningHooks& hooks, PlannedWalk* walk) {
+  constexpr int kMost = 3;
   if (StartsOnNoStep(place, walk)) return;
   const ExperimentConfig config = walk->config;
-  const double begin = SteadySeconds();
-  const HalfStepForms found = FormsFor(config, place);
-  walk->half_steps.set_wall = SteadySeconds() - begin;
-  for (const HalfStepConfig& form : found.forms) {
-    if (hooks.stop.stop_requested()) break;
+  HalfStepForms found;
+  for (int i = 0; i < kMost && !hooks.stop.stop_requested(); ++i) {
+    if (i < 2) {  // others are looked for when the first one has no plan
+      const double begin = SteadySeconds();
+      found = FormsFor(config, place, i == 0 ? 1 : kMost);
+      walk->half_steps.set_wall += SteadySeconds() - begin;
+    }
+    if (i == std::ssize(found.forms)) break;
+    const HalfStepConfig& form = Nth(found.forms, i);
     walk->config = config;
     walk->config.half_step = form;
-    walk->config.planner.effort = config.planner.effort / static_cast<double>(found.forms.size());
+    if (found.on_levels) walk->config.planner.effort = config.planner.effort / kMost;
     PlanByCertificates(place, hooks, walk);
     walk->config.planner.effort = config.planner.effort;
     if (walk->plan.status == PlanStatus::kSolved) {
@@ -214,7 +222,14 @@ void PlanByForms(const Place& place, const PlanningHooks& hooks, PlannedWalk* wa
       return;
     }
   }
+  if (walk->plan.status == PlanStatus::kInterrupted) return;
   for (const std::string& sentence : found.too_high) walk->plan.sentence += "; " + sentence;
+  const double foothold =
+      Demandable(config.smoothing.limits, place.robot).demanded_of(MarginFamily::kFoothold);
+  for (const std::string& sentence :
+       NarrowSurfaces(place.robot, *place.scene.ground, foothold, AreaOf(config, place))) {
+    walk->plan.sentence += "; " + sentence;
+  }
 }
 
 // With half-steps that are called free by their swept volumes.

@@ -162,10 +162,16 @@ std::string RobotCheckJson(const RobotModel& robot, const RobotCheck& check) {
                    {"stride_m", check.bar->stride}};
   }
   if (check.stairs) {
-    const HalfStep& form = check.stairs->half_step;
-    json["stairs"] = {{"rise_m", check.stairs->flight.rise}, {"run_m", check.stairs->flight.run},
-                      {"duration_s", form.duration},         {"via_height_m", form.via_height},
-                      {"foot_delay", form.shape.foot_delay}, {"crouch_m", form.shape.crouch}};
+    const HalfStepConfig& form = check.stairs->half_step;
+    json["stairs"] = {{"rise_m", check.stairs->flight.rise},
+                      {"run_m", check.stairs->flight.run},
+                      {"duration_s", form.duration},
+                      {"via_height_m", form.via_height},
+                      {"foot_delay", form.foot_delay},
+                      {"crouch_m", form.crouch},
+                      {"lift_share", form.lift_share},
+                      {"rise_begin", form.rise_begin},
+                      {"rise_end", form.rise_end}};
   }
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

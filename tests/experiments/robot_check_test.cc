@@ -41,7 +41,7 @@ TEST(RobotCheck, SaysWhatARobotCanDo) {
   RobotCheck check = Fabricated();
   check.walk = StraightWalk{0.3, 5.0, "dichotomy"};
   check.bar = SteppedBar{.height = 0.05, .thickness = 0.02, .stride = 0.3};
-  check.stairs = {.flight = {.rise = 0.04, .run = 0.15}, .half_step = check.half_step};
+  check.stairs = {.flight = {.rise = 0.04, .run = 0.15}, .half_step = {}};
   check.not_covered = NotCoveredOf(robot);
   const std::string screen = RobotCheckScreen(robot, check);
   EXPECT_THAT(screen, HasSubstr("200 of 600 places"));
