@@ -54,7 +54,8 @@ class Fitting {
     }
     return fits;
   }
-  // How near the best of the first crossings of a class is to keeping all.
+  // How near the best of the first crossings of a class is to keeping all; `of` is null where the
+  // foot does not rise to the other level.
   OfClass Nearest(const HalfStepConfig& form, int key) {
     constexpr int kLooked = 16;
     OfClass best{.fit = -kWorst};
@@ -62,6 +63,7 @@ class Fitting {
     for (const LevelCrossing& crossing : crossings_) {
       if (ClassOf(crossing) != key || looked == kLooked) continue;
       ++looked;
+      if (!Rises(form, crossing)) continue;
       const auto [slack, margin] = SlackOf(form, crossing);
       if (best.of == nullptr || slack > best.fit) best = {slack, margin, &crossing};
     }
@@ -97,8 +99,12 @@ class Fitting {
     }
   }
 
+  static bool Rises(const HalfStepConfig& form, const LevelCrossing& crossing) {
+    return std::abs(crossing.rise()) < form.via_height;
+  }
+
   bool Keeps(const HalfStepConfig& form, const LevelCrossing& crossing) {
-    bool keeps = std::abs(crossing.rise()) < form.via_height;
+    bool keeps = Rises(form, crossing);
     if (!keeps) return false;
     Visit(form, crossing, [&](const SuperposedWalk& walk, const LocalTime& at) {
       keeps = !evaluator_.FirstViolation(walk, at, &scratch_);
@@ -110,7 +116,6 @@ class Fitting {
   // The least slack of a crossing, and its margin.
   std::pair<double, Margin> SlackOf(const HalfStepConfig& form, const LevelCrossing& crossing) {
     std::pair<double, Margin> least = {1.0, {}};
-    if (std::abs(crossing.rise()) >= form.via_height) return {-kWorst, {}};
     Visit(form, crossing, [&](const SuperposedWalk& walk, const LocalTime& at) {
       const MarginSet margins = evaluator_.At(walk, at, &scratch_);
       const Margin& worst = WorstOf(margins, evaluator_.limits());
@@ -176,7 +181,7 @@ std::vector<int> Hopeless(std::vector<Fitted>* all, Fitting* fitting,
     for (Fitted& fitted : *all) {
       Fitting::OfClass& of = fitted.classes[key];
       of = fitting->Nearest(fitted.form, key);
-      if (best.of == nullptr || of.fit > best.fit) best = of;
+      if (of.of != nullptr && (best.of == nullptr || of.fit > best.fit)) best = of;
     }
     const double rise = best.of->rise();
     if (best.fit >= kHopeless || std::abs(rise) < fitting->Highest() - kClassWidth) continue;

@@ -273,6 +273,7 @@ PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
   PlannedWalk walk{.config = config,
                    .plan = {},
                    .half_steps = {},
+                   .on_levels = HasLevels(ground),
                    .not_covered = NotCoveredBy(place.robot, place.scene, config.smoothing.limits)};
   if (by_certificates) {
     PlanByForms(place, hooks, &walk);
@@ -281,6 +282,21 @@ PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
   }
   return walk;
 }
+
+namespace {
+
+nlohmann::ordered_json PlacesJson(const PlannedWalk& walk) {
+  auto places = nlohmann::ordered_json::array();
+  for (const Footstep& footstep : walk.plan.footsteps) {
+    const Foothold& at = footstep.X_WF;
+    places.push_back(
+        {{"foot", Name(footstep.side)}, {"x_m", at.x}, {"y_m", at.y}, {"yaw_rad", at.yaw}});
+    if (walk.on_levels) places.back()["z_m"] = at.height;
+  }
+  return places;
+}
+
+}  // namespace
 
 std::string PlanJson(const PlannedWalk& walk) {
   const PlanResult& plan = walk.plan;
@@ -305,6 +321,7 @@ std::string PlanJson(const PlannedWalk& walk) {
       {"cost_kind", walk.config.planner.cost},
       {"cost", number(plan.cost)},
       {"footsteps", plan.footsteps.size()},
+      {"places", PlacesJson(walk)},
       {"elements", plan.elements},
       {"nodes", plan.nodes},
       {"queries", plan.queries},

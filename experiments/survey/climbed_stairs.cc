@@ -53,6 +53,8 @@ HalfStepSequence WalkAlong(const Flight& flight, bool up, const RobotModel& robo
 
 double UsualRun(const RobotModel& robot) { return 1.3 * robot.sole_size.x(); }
 
+double LeastRise(const RobotModel& robot) { return WholeNanometres(kUnit * SizeOf(robot)); }
+
 std::optional<HalfStepConfig> FormFor(const Flight& flight, const RobotModel& robot,
                                       const ExperimentConfig& config, const GoesOn& goes_on) {
   const auto test_on = [&](bool up) {
@@ -76,7 +78,7 @@ std::optional<HalfStepConfig> FormFor(const Flight& flight, const RobotModel& ro
 
 std::optional<ClimbedStairs> HighestStairs(double run, const RobotModel& robot,
                                            const ExperimentConfig& config, const GoesOn& goes_on) {
-  const double unit = WholeNanometres(kUnit * SizeOf(robot));
+  const double unit = LeastRise(robot);
   std::optional<ClimbedStairs> highest;
   int over = 0, beyond = static_cast<int>(kHighest * LegLengthOf(robot) / unit);
   while (beyond - over > 1 && goes_on()) {

@@ -30,6 +30,8 @@ HalfStepSequence WalkAlong(const Flight& flight, bool up, const RobotModel& robo
 
 /// The depth of a tread that a robot's sole has room on: 1.3 of its length [m].
 double UsualRun(const RobotModel& robot);
+/// The least rise that is tried for a robot, of which the others are multiples [m].
+double LeastRise(const RobotModel& robot);
 
 /// A flight and the form of the half-steps by which a robot walks up and down it.
 struct ClimbedStairs {

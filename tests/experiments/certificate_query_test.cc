@@ -101,6 +101,10 @@ TEST(HalfStepForms, CrouchForStairsAndNameWhatIsTooHigh) {
   EXPECT_TRUE(forms.too_high.empty());
   EXPECT_GT(forms.forms.front().crouch, 0.0);
   EXPECT_FALSE(Differences(forms.forms.front(), low.config.half_step).empty());
+  // Who wants fewer gets the first of them.
+  const HalfStepForms first = FormsFor(low.config, *low.place, 1);
+  ASSERT_EQ(first.forms.size(), 1u);
+  EXPECT_EQ(Differences(first.forms.front(), forms.forms.front()), "");
   const HalfStepForms none = FormsFor(high.config, *high.place, 3);
   ASSERT_FALSE(none.too_high.empty());
   EXPECT_EQ(none.too_high.front().find("no half-step that was tried leads "), 0u);

@@ -64,6 +64,7 @@ TEST(RobotCheck, SaysWhyARobotDoesNotWalk) {
   EXPECT_THAT(screen, HasSubstr("six steps straight ahead are not certified; worst first:"));
   EXPECT_THAT(screen, HasSubstr("the third"));
   EXPECT_THAT(screen, testing::Not(HasSubstr("the fourth")));
+  EXPECT_THAT(screen, HasSubstr("no stairs at treads of 13.5 cm, of the rises from 0.16 cm"));
   EXPECT_TRUE(json::parse(RobotCheckJson(robot, check))["walk"].is_null());
 }
 
