@@ -31,16 +31,10 @@ LevelSurface Rectangle(const std::string& name, double x, double y, double wide,
   return surface;
 }
 
-std::vector<std::string> Said(const std::vector<LevelSurface>& surfaces) {
+std::vector<std::string> Said(const std::vector<LevelSurface>& surfaces,
+                              const RobotModel& robot = ShippedRobot("hrp2")) {
   const Eigen::AlignedBox2d area(Eigen::Vector2d(-10, -10), Eigen::Vector2d(10, 10));
-  return NarrowSurfaces(ShippedRobot("hrp2"), LevelGround(surfaces, true), kFoothold, area);
-}
-
-double WidthOfSole(double angle) {
-  const RobotModel robot = ShippedRobot("hrp2");
-  const Eigen::RowVectorXd along =
-      Eigen::RowVector2d(std::cos(angle), std::sin(angle)) * robot.sole_outline;
-  return along.maxCoeff() - along.minCoeff();
+  return NarrowSurfaces(robot, LevelGround(surfaces, true), kFoothold, area);
 }
 
 TEST(NarrowSurfaces, NamesTreadsThatAreShorterThanASole) {
@@ -67,10 +61,16 @@ TEST(NarrowSurfaces, SaysNothingOfWhatIsElsewhere) {
 
 // On a strip a sole fits when it is no wider across it.
 TEST(NarrowSurfaces, SayByHowMuchASoleIsTurnedAndNoMore) {
+  const RobotModel robot = ShippedRobot("hrp2");
+  const auto width_of_sole = [&](double angle) {
+    const Eigen::RowVectorXd along =
+        Eigen::RowVector2d(std::cos(angle), std::sin(angle)) * robot.sole_outline;
+    return along.maxCoeff() - along.minCoeff();
+  };
   for (double width = 0.13; width < 0.25; width += 0.0071) {
-    const auto said = Said({Rectangle("strip", 0.0, -2, width, 4, 0.1)});
+    const auto said = Said({Rectangle("strip", 0.0, -2, width, 4, 0.1)}, robot);
     int least = 0;  // [°] at which it fits
-    while (least <= 90 && WidthOfSole(least * std::numbers::pi / 180.0) + 2 * kFoothold > width) {
+    while (least <= 90 && width_of_sole(least * std::numbers::pi / 180.0) + 2 * kFoothold > width) {
       ++least;
     }
     ASSERT_THAT(said, SizeIs(1)) << width;

@@ -116,7 +116,7 @@ TEST(PlanCommand, TellsHeightsOnLevels) {
       "     thickness_m: 0.1}\n");
   const std::string begin =
       "robot: hrp2\nscene: scene.yaml\nsmoothing: {methods: []}\n"
-      "planner: {name: astar, unimproved_nodes: 0}\n"
+      "planner: {name: astar, unimproved_nodes: 0}\nstep_set: {yaws_rad: [0]}\n"
       "start: {left: {x_m: -0.05, y_m: 0.085, level: floor},\n"
       "        right: {x_m: -0.05, y_m: -0.085, level: floor}}\n";
   const std::string config = WriteText(
