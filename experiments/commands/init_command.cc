@@ -75,8 +75,8 @@ std::string AddStairs(const std::vector<double>& numbers, const RobotModel& robo
   ExperimentConfig config;
   ScaleDefaults(MeasuresOf(robot), &config);
   const Flight flight = FlightOf(numbers, robot, config);
-  const std::optional<HalfStep> form = FormFor(flight, robot, config, [] { return true; });
-  starter->stairs = {flight, form.value_or(PrototypeOf(config))};
+  const std::optional<HalfStepConfig> form = FormFor(flight, robot, config, [] { return true; });
+  starter->stairs = {flight, form.value_or(config.half_step)};
   if (!form) starter->why_search = "climbs these stairs by none of the half-steps that were tried";
   return StairsSceneText(flight);
 }

@@ -65,12 +65,16 @@ void PrintPlan(const PlannedWalk& walk) {
     std::cout << "half_step: {" << walk.changed_half_step << "}\n";
   }
   std::vector<FootstepConfig> footsteps = walk.config.footsteps;
+  for (size_t i = 0; i < footsteps.size(); ++i) {
+    Nth(footsteps, i).on.z = Nth(plan.footsteps, i).X_WF.height;
+  }
   std::cout << WriteYaml([&](Fields& fields) {
-    fields.List("footsteps", {}, &footsteps, [](Fields& f, FootstepConfig* step) {
+    fields.List("footsteps", {}, &footsteps, [&walk](Fields& f, FootstepConfig* step) {
       f.Text("foot", &step->foot, {});
       f.Number("x_m", &step->X_WF.x, {});
       f.Number("y_m", &step->X_WF.y, {});
       f.Number("yaw_deg", &step->X_WF.yaw, {});
+      if (walk.on_levels) f.OptionalNumber("z_m", &step->on.z, {});
     });
   });
 }

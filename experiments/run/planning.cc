@@ -7,6 +7,9 @@
 #include "experiments/run/certificate_query.h"
 #include "experiments/run/ground_steps.h"
 #include "experiments/run/half_step_forms.h"
+#include "experiments/run/half_step_table.h"
+#include "experiments/run/level_crossings.h"
+#include "experiments/run/narrow_surfaces.h"
 #include "experiments/run/plan_inputs.h"
 #include "experiments/tables/not_covered_json.h"
 #include "planner/search/planners.h"
@@ -191,16 +194,21 @@ void PlanByCertificates(const Place& place, const PlanningHooks& hooks, PlannedW
 
 // The same with the first form that has a plan.
 void PlanByForms(const Place& place, const PlanningHooks& hooks, PlannedWalk* walk) {
+  constexpr int kMost = 3;
   if (StartsOnNoStep(place, walk)) return;
   const ExperimentConfig config = walk->config;
-  const double begin = SteadySeconds();
-  const HalfStepForms found = FormsFor(config, place);
-  walk->half_steps.set_wall = SteadySeconds() - begin;
-  for (const HalfStepConfig& form : found.forms) {
-    if (hooks.stop.stop_requested()) break;
+  HalfStepForms found;
+  for (int i = 0; i < kMost && !hooks.stop.stop_requested(); ++i) {
+    if (i < 2) {  // others are looked for when the first one has no plan
+      const double begin = SteadySeconds();
+      found = FormsFor(config, place, i == 0 ? 1 : kMost);
+      walk->half_steps.set_wall += SteadySeconds() - begin;
+    }
+    if (i == std::ssize(found.forms)) break;
+    const HalfStepConfig& form = Nth(found.forms, i);
     walk->config = config;
     walk->config.half_step = form;
-    walk->config.planner.effort = config.planner.effort / static_cast<double>(found.forms.size());
+    if (found.on_levels) walk->config.planner.effort = config.planner.effort / kMost;
     PlanByCertificates(place, hooks, walk);
     walk->config.planner.effort = config.planner.effort;
     if (walk->plan.status == PlanStatus::kSolved) {
@@ -211,7 +219,14 @@ void PlanByForms(const Place& place, const PlanningHooks& hooks, PlannedWalk* wa
       return;
     }
   }
+  if (walk->plan.status == PlanStatus::kInterrupted) return;
   for (const std::string& sentence : found.too_high) walk->plan.sentence += "; " + sentence;
+  const double foothold =
+      Demandable(config.smoothing.limits, place.robot).demanded_of(MarginFamily::kFoothold);
+  for (const std::string& sentence :
+       NarrowSurfaces(place.robot, *place.scene.ground, foothold, AreaOf(config, place))) {
+    walk->plan.sentence += "; " + sentence;
+  }
 }
 
 // With half-steps that are called free by their swept volumes.
@@ -255,6 +270,7 @@ PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
   PlannedWalk walk{.config = config,
                    .plan = {},
                    .half_steps = {},
+                   .on_levels = HasLevels(ground),
                    .not_covered = NotCoveredBy(place.robot, place.scene, config.smoothing.limits)};
   if (by_certificates) {
     PlanByForms(place, hooks, &walk);
@@ -263,6 +279,21 @@ PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
   }
   return walk;
 }
+
+namespace {
+
+nlohmann::ordered_json PlacesJson(const PlannedWalk& walk) {
+  auto places = nlohmann::ordered_json::array();
+  for (const Footstep& footstep : walk.plan.footsteps) {
+    const Foothold& at = footstep.X_WF;
+    places.push_back(
+        {{"foot", Name(footstep.side)}, {"x_m", at.x}, {"y_m", at.y}, {"yaw_rad", at.yaw}});
+    if (walk.on_levels) places.back()["z_m"] = at.height;
+  }
+  return places;
+}
+
+}  // namespace
 
 std::string PlanJson(const PlannedWalk& walk) {
   const PlanResult& plan = walk.plan;
@@ -287,6 +318,7 @@ std::string PlanJson(const PlannedWalk& walk) {
       {"cost_kind", walk.config.planner.cost},
       {"cost", number(plan.cost)},
       {"footsteps", plan.footsteps.size()},
+      {"places", PlacesJson(walk)},
       {"elements", plan.elements},
       {"nodes", plan.nodes},
       {"queries", plan.queries},

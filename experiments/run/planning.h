@@ -30,6 +30,7 @@ struct PlannedWalk {
   /// The keys of half_step that differ from the config's, since its own do not cross the ground.
   std::string changed_half_step = {};
   double proof_effort = 0.0;  ///< of half-steps that were called free by proofs (Work::effort)
+  bool on_levels = false;     ///< whether the scene's ground has levels, so that heights are told
   std::vector<NotCovered> not_covered = {};  ///< what no proof behind the plan speaks of
 };
 

@@ -1,10 +1,10 @@
 #include "experiments/survey/climbed_stairs.h"
 
-#include <algorithm>
 #include <memory>
 #include <numbers>
 
 #include "experiments/config/experiment.h"
+#include "experiments/run/half_step_table.h"
 #include "experiments/run/planning.h"
 #include "planner/ground/level_ground.h"
 #include "planner/ground/stairs.h"
@@ -13,34 +13,8 @@
 namespace halfstep {
 namespace {
 
-constexpr double kHrp2sLeg = 0.705;  // [m]
-constexpr double kUnit = 0.005;      // of a riser for HRP-2's size [m]
-constexpr double kHighest = 0.35;    // of the leg's length: beyond what is tried
-
-double SizeOf(const RobotModel& robot) { return MeasuresOf(robot).leg_length / kHrp2sLeg; }
-
-// What is tried, the usual first. Lengths for HRP-2's size; a via point lower than the next tread
-// is left out.
-std::vector<HalfStep> TriedForms(const Flight& flight, const RobotModel& robot,
-                               const HalfStep& usual) {
-  const double size = SizeOf(robot);
-  std::vector<HalfStep> forms;
-  for (const double slower : {1.0, 1.1}) {
-    for (const double crouch : {0.0, 0.01, 0.02}) {
-      for (const double delay : {0.13, 0.15, 0.18}) {
-        for (const double lower : {0.0, 0.04}) {
-          HalfStep form = usual;
-          form.duration *= slower;
-          form.via_height -= lower * size;
-          form.shape.crouch = crouch * size;
-          form.shape.foot_delay = std::max(delay, usual.shape.foot_delay);
-          if (form.via_height > flight.rise + 0.02 * size) forms.push_back(form);
-        }
-      }
-    }
-  }
-  return forms;
-}
+constexpr double kUnit = 0.005;    // of a riser for HRP-2's size [m]
+constexpr double kHighest = 0.35;  // of the leg's length: beyond what is tried
 
 }  // namespace
 
@@ -79,18 +53,23 @@ HalfStepSequence WalkAlong(const Flight& flight, bool up, const RobotModel& robo
 
 double UsualRun(const RobotModel& robot) { return 1.3 * robot.sole_size.x(); }
 
-std::optional<HalfStep> FormFor(const Flight& flight, const RobotModel& robot,
-                                const ExperimentConfig& config, const GoesOn& goes_on) {
+double LeastRise(const RobotModel& robot) { return WholeNanometres(kUnit * SizeOf(robot)); }
+
+std::optional<HalfStepConfig> FormFor(const Flight& flight, const RobotModel& robot,
+                                      const ExperimentConfig& config, const GoesOn& goes_on) {
   const auto test_on = [&](bool up) {
     return CertifiedFeasibility(
         MarginEvaluator(robot, SceneOf(flight, up), config.smoothing.limits),
         config.smoothing.certification);
   };
   const CertifiedFeasibility upwards = test_on(true), downwards = test_on(false);
-  for (const HalfStep& form : TriedForms(flight, robot, PrototypeOf(config))) {
+  for (const HalfStepConfig& form : HalfStepTable(config.half_step, flight.rise, SizeOf(robot))) {
     if (!goes_on()) return std::nullopt;
+    if (form.via_height <= flight.rise) continue;
+    ExperimentConfig with = config;
+    with.half_step = form;
     const auto walks = [&](const CertifiedFeasibility& test, bool up) {
-      return CertifyPlan(test, WalkAlong(flight, up, robot, form)).accepted;
+      return CertifyPlan(test, WalkAlong(flight, up, robot, PrototypeOf(with))).accepted;
     };
     if (walks(upwards, true) && walks(downwards, false)) return form;
   }
@@ -99,13 +78,13 @@ std::optional<HalfStep> FormFor(const Flight& flight, const RobotModel& robot,
 
 std::optional<ClimbedStairs> HighestStairs(double run, const RobotModel& robot,
                                            const ExperimentConfig& config, const GoesOn& goes_on) {
-  const double unit = WholeNanometres(kUnit * SizeOf(robot));
+  const double unit = LeastRise(robot);
   std::optional<ClimbedStairs> highest;
-  int over = 0, beyond = static_cast<int>(kHighest * MeasuresOf(robot).leg_length / unit);
+  int over = 0, beyond = static_cast<int>(kHighest * LegLengthOf(robot) / unit);
   while (beyond - over > 1 && goes_on()) {
     const int middle = (over + beyond) / 2;
     const Flight flight{.rise = middle * unit, .run = run};
-    const std::optional<HalfStep> form = FormFor(flight, robot, config, goes_on);
+    const std::optional<HalfStepConfig> form = FormFor(flight, robot, config, goes_on);
     (form ? over : beyond) = middle;
     if (form) highest = {flight, *form};
   }

@@ -30,25 +30,26 @@ HalfStepSequence WalkAlong(const Flight& flight, bool up, const RobotModel& robo
 
 /// The depth of a tread that a robot's sole has room on: 1.3 of its length [m].
 double UsualRun(const RobotModel& robot);
+/// The least rise that is tried for a robot, of which the others are multiples [m].
+double LeastRise(const RobotModel& robot);
 
 /// A flight and the form of the half-steps by which a robot walks up and down it.
 struct ClimbedStairs {
-  Flight flight;       ///< the stairs
-  HalfStep half_step;  ///< duration, via point and shape
+  Flight flight;             ///< the stairs
+  HalfStepConfig half_step;  ///< duration, via point, shape and crouch
 };
 
 /// Whether a search shall go on.
 using GoesOn = std::function<bool()>;
 
 /// The form by which a robot walks along a flight one isolated half-step after the other, up and
-/// down, certified for all t under the config's margins: the first of a table that varies duration,
-/// crouch, delay of the foot and height of the via point about the config's. None when no form of
-/// the table does.
-std::optional<HalfStep> FormFor(const Flight& flight, const RobotModel& robot,
-                                const ExperimentConfig& config, const GoesOn& goes_on);
+/// down, certified for all t under the config's margins: the first of HalfStepTable that does. None
+/// when none does.
+std::optional<HalfStepConfig> FormFor(const Flight& flight, const RobotModel& robot,
+                                      const ExperimentConfig& config, const GoesOn& goes_on);
 
-/// The highest flight with treads of `run` [m] of the table, found by halves: what is told is
-/// certified, whether or not all lower ones are. None when no rise of those that were tried is.
+/// The highest flight with treads of `run` [m], found by halves: what is told is certified, whether
+/// or not all lower ones are. None when no rise of those that were tried is.
 std::optional<ClimbedStairs> HighestStairs(double run, const RobotModel& robot,
                                            const ExperimentConfig& config, const GoesOn& goes_on);
 

@@ -45,7 +45,7 @@ std::string KnownText(const KnownLimits& limits, const char* unit) {
 
 double Degrees(double radians) { return radians * 180.0 / std::numbers::pi; }
 
-std::string WhatItDoes(const RobotCheck& check) {
+std::string WhatItDoes(const RobotModel& robot, const RobotCheck& check) {
   const SetReach& reach = check.reach;
   std::string text = Formatted(
       "can do, by half-steps of %.3g s whose foot rises %.3g m:\n"
@@ -83,7 +83,13 @@ std::string WhatItDoes(const RobotCheck& check) {
         "(certified)\n",
         100 * flight.rise, 100 * flight.run);
   } else {
-    text += "  it climbs   no stairs: of the rises that were tried none is certified\n";
+    text += Formatted(
+        "  it climbs   no stairs at treads of %.3g cm, of the rises from %.2g cm that were tried\n",
+        100.0 * UsualRun(robot), 100.0 * LeastRise(robot));
+    if (check.reach.stride < UsualRun(robot)) {
+      text +=
+          Formatted("              (its longest step is %.3g cm)\n", 100.0 * check.reach.stride);
+    }
   }
   return text + Formatted("  it lifts    a foot %.3g m, as far as the joints' limits let it\n",
                           check.measures.lift);
@@ -107,7 +113,7 @@ std::string RobotCheckScreen(const RobotModel& robot, const RobotCheck& check) {
       Formatted("\n  bodies      %zu; %zu pairs of them are watched, %zu are not\n",
                 robot.bodies.size(), robot.self_pairs.size(), robot.unwatched_pairs.size());
   text += NotCoveredText(check.not_covered, "--json");
-  return text + WhatItDoes(check);
+  return text + WhatItDoes(robot, check);
 }
 
 std::string RobotCheckJson(const RobotModel& robot, const RobotCheck& check) {
@@ -162,10 +168,16 @@ std::string RobotCheckJson(const RobotModel& robot, const RobotCheck& check) {
                    {"stride_m", check.bar->stride}};
   }
   if (check.stairs) {
-    const HalfStep& form = check.stairs->half_step;
-    json["stairs"] = {{"rise_m", check.stairs->flight.rise}, {"run_m", check.stairs->flight.run},
-                      {"duration_s", form.duration},         {"via_height_m", form.via_height},
-                      {"foot_delay", form.shape.foot_delay}, {"crouch_m", form.shape.crouch}};
+    const HalfStepConfig& form = check.stairs->half_step;
+    json["stairs"] = {{"rise_m", check.stairs->flight.rise},
+                      {"run_m", check.stairs->flight.run},
+                      {"duration_s", form.duration},
+                      {"via_height_m", form.via_height},
+                      {"foot_delay", form.foot_delay},
+                      {"crouch_m", form.crouch},
+                      {"lift_share", form.lift_share},
+                      {"rise_begin", form.rise_begin},
+                      {"rise_end", form.rise_end}};
   }
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

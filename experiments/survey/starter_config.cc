@@ -1,5 +1,7 @@
 #include "experiments/survey/starter_config.h"
 
+#include "experiments/config/scaled_defaults.h"
+#include "experiments/run/half_step_table.h"
 #include "experiments/survey/self_gaps.h"
 #include "experiments/survey/stance_search.h"
 #include "smoothing/walk/superposed_walk.h"
@@ -15,23 +17,22 @@ std::string FootstepLine(Side foot, const Pose2& at) {
                    at.y);
 }
 
-// Up a flight, as items of a list, and the form of the half-steps.
-std::string LinesOf(const ClimbedStairs& stairs, const RobotModel& robot) {
-  const HalfStep& form = stairs.half_step;
-  const HalfStepSequence sequence = WalkAlong(stairs.flight, true, robot, form);
+// Up a flight, as items of a list, and what of the half-steps' form is not the robot's usual one.
+std::string LinesOf(const ClimbedStairs& stairs, const RobotModel& robot,
+                    const HalfStep& half_step) {
+  const HalfStepSequence sequence = WalkAlong(stairs.flight, true, robot, half_step);
   std::string text = "footsteps:  # the scene tells their heights\n";
   for (int i = 1; i < sequence.size(); i += 2) {
     const PlacedHalfStep& down = Nth(sequence.half_steps, i);
     const Foothold at = down.X_WS * down.half_step.X_SF;
     text += FootstepLine(down.half_step.swing(), at.Planar());
   }
-  return text + Formatted(
-                    "# How long a half-step lasts, how high the foot goes, how late after take-off "
-                    "it moves "
-                    "on, and how\n# far the waist is lowered:\n"
-                    "half_step: {duration_s: %.4g, via_height_m: %.4g, foot_delay: %.4g, crouch_m: "
-                    "%.4g}\n",
-                    form.duration, form.via_height, form.shape.foot_delay, form.shape.crouch);
+  ExperimentConfig usual;
+  ScaleDefaults(MeasuresOf(robot), &usual);
+  const std::string changed = Differences(stairs.half_step, usual.half_step);
+  if (changed.empty()) return text;
+  return text + "# Half-steps that are certified on these stairs, up and down:\nhalf_step: {" +
+         changed + "}\n";
 }
 
 // Six steps straight ahead, as items of a list.
@@ -68,7 +69,7 @@ std::string StarterConfigText(const RobotModel& robot, const StarterConfig& conf
       "scene: " + config.scene + (config.scene == "none" ? "  # an empty floor; " : "  # ") +
       "`halfstep list scenes`\n";
   if (config.stairs) {
-    text += LinesOf(*config.stairs, robot);
+    text += LinesOf(*config.stairs, robot, half_step);
   } else if (config.goal) {
     text += Formatted(
         "goal: {x_m: %g, y_m: %g, radius_m: 0.1}  # a planner finds the footsteps; in place of it "
@@ -84,7 +85,7 @@ std::string StarterConfigText(const RobotModel& robot, const StarterConfig& conf
             ".\n# So a search looks for another walk.\n"
             "smoothing: {methods: [halfstep/sqp]}\n";
   }
-  if (!config.stairs) {
+  if (text.find("\nhalf_step: ") == std::string::npos) {
     text += Formatted(
         "# half_step: {duration_s: %.3g, via_height_m: %.3g}  # so long lasts each, so high goes "
         "the foot\n",

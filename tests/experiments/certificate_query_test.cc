@@ -7,6 +7,7 @@
 #include "experiments/run/certificate_query.h"
 #include "experiments/run/certified_half_steps.h"
 #include "experiments/run/half_step_forms.h"
+#include "experiments/run/half_step_table.h"
 #include "planner/search/plan_shortcut.h"
 #include "tests/temporary_folder.h"
 
@@ -95,12 +96,16 @@ TEST(CertificateQuery, AFootOverAnEdgeIsNotBorne) {
 
 TEST(HalfStepForms, CrouchForStairsAndNameWhatIsTooHigh) {
   const BeforeStairs low(0.1), high(0.24);
-  const HalfStepForms forms = FormsFor(low.config, *low.place);
+  const HalfStepForms forms = FormsFor(low.config, *low.place, 3);
   ASSERT_FALSE(forms.forms.empty());
   EXPECT_TRUE(forms.too_high.empty());
   EXPECT_GT(forms.forms.front().crouch, 0.0);
   EXPECT_FALSE(Differences(forms.forms.front(), low.config.half_step).empty());
-  const HalfStepForms none = FormsFor(high.config, *high.place);
+  // Who wants fewer gets the first of them.
+  const HalfStepForms first = FormsFor(low.config, *low.place, 1);
+  ASSERT_EQ(first.forms.size(), 1u);
+  EXPECT_EQ(Differences(first.forms.front(), forms.forms.front()), "");
+  const HalfStepForms none = FormsFor(high.config, *high.place, 3);
   ASSERT_FALSE(none.too_high.empty());
   EXPECT_EQ(none.too_high.front().find("no half-step that was tried leads "), 0u);
 }

@@ -92,6 +92,9 @@ TEST(PlanCommand, RunPlansAndItsConfigRunsAgain) {
   EXPECT_EQ(plan.at("half_steps"), 2);
   EXPECT_GE(plan.at("footsteps"), 3);
   EXPECT_EQ(plan.at("elements").size(), plan.at("footsteps"));
+  ASSERT_EQ(plan.at("places").size(), plan.at("footsteps"));
+  EXPECT_NEAR(plan.at("places").back().at("x_m").get<double>(), 0.6, 0.05);
+  EXPECT_FALSE(plan.at("places").back().contains("z_m"));
   const Outcome second = Halfstep(
       place.path(), {"run", (place / "first/config.yaml").string(), "--quiet", "--out", "second"});
   ASSERT_EQ(second.status, kSuccess) << second.err;
@@ -100,6 +103,32 @@ TEST(PlanCommand, RunPlansAndItsConfigRunsAgain) {
   }
   EXPECT_FALSE(fs::exists(place / "second/plan.json"));
   EXPECT_EQ(Halfstep(place.path(), {"certify", "first", "--quiet"}).status, kSuccess);
+}
+
+// Under a roof, where the ground alone would have every sole.
+TEST(PlanCommand, TellsHeightsOnLevels) {
+  const TemporaryFolder place;
+  WriteText(
+      place / "scene.yaml",
+      "surfaces:\n"
+      "  - {name: step, polygon_m: [[0.14, -1], [2, -1], [2, 1], [0.14, 1]], height_m: 0.05}\n"
+      "  - {name: roof, polygon_m: [[-2, -2], [3, -2], [3, 2], [-2, 2]], height_m: 2.5,\n"
+      "     thickness_m: 0.1}\n");
+  const std::string begin =
+      "robot: hrp2\nscene: scene.yaml\nsmoothing: {methods: []}\n"
+      "planner: {name: astar, unimproved_nodes: 0}\nstep_set: {yaws_rad: [0]}\n"
+      "start: {left: {x_m: -0.05, y_m: 0.085, level: floor},\n"
+      "        right: {x_m: -0.05, y_m: -0.085, level: floor}}\n";
+  const std::string config = WriteText(
+      place / "walk.yaml", begin + "goal: {x_m: 0.4, y_m: 0, radius_m: 0.13, level: step}\n");
+  const Outcome planned = Halfstep(place.path(), {"plan", config});
+  ASSERT_EQ(planned.status, kSuccess) << planned.err;
+  EXPECT_THAT(planned.out, HasSubstr("    z_m: 0.05\n"));
+  const std::string given = WriteText(place / "given.yaml", begin + planned.out);
+  const Outcome run = Halfstep(place.path(), {"run", given, "--quiet", "--out", "run"});
+  EXPECT_EQ(run.status, kSuccess) << run.err;
+  const Outcome told = Halfstep(place.path(), {"plan", config, "--json"});
+  EXPECT_EQ(nlohmann::json::parse(told.out).at("places").back().at("z_m"), 0.05);
 }
 
 TEST(PlanCommand, SaysWhyThereIsNoPlanAndWritesNothing) {

@@ -41,7 +41,7 @@ TEST(RobotCheck, SaysWhatARobotCanDo) {
   RobotCheck check = Fabricated();
   check.walk = StraightWalk{0.3, 5.0, "dichotomy"};
   check.bar = SteppedBar{.height = 0.05, .thickness = 0.02, .stride = 0.3};
-  check.stairs = {.flight = {.rise = 0.04, .run = 0.15}, .half_step = check.half_step};
+  check.stairs = {.flight = {.rise = 0.04, .run = 0.15}, .half_step = {}};
   check.not_covered = NotCoveredOf(robot);
   const std::string screen = RobotCheckScreen(robot, check);
   EXPECT_THAT(screen, HasSubstr("200 of 600 places"));
@@ -64,6 +64,7 @@ TEST(RobotCheck, SaysWhyARobotDoesNotWalk) {
   EXPECT_THAT(screen, HasSubstr("six steps straight ahead are not certified; worst first:"));
   EXPECT_THAT(screen, HasSubstr("the third"));
   EXPECT_THAT(screen, testing::Not(HasSubstr("the fourth")));
+  EXPECT_THAT(screen, HasSubstr("no stairs at treads of 13.5 cm, of the rises from 0.16 cm"));
   EXPECT_TRUE(json::parse(RobotCheckJson(robot, check))["walk"].is_null());
 }
 
