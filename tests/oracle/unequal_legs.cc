@@ -309,4 +309,11 @@ std::string WriteUnequalRobot(const std::string& name, const UnequalLegs& drawn,
   return files.path();
 }
 
+std::string StudiedRobot(const std::string& name, const std::string& folder) {
+  const size_t dash = name.find('-');
+  if (dash == std::string::npos) return HALFSTEP_SOURCE_DIR "/wpg/robots/" + name + ".yaml";
+  const bool offset = name.substr(dash) == "-offset";
+  return WriteUnequalRobot(name.substr(0, dash), {.seed = 1, .offset = offset}, folder);
+}
+
 }  // namespace halfstep::oracle

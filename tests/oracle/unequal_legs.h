@@ -35,4 +35,8 @@ struct UnequalLegs {
 std::string WriteUnequalRobot(const std::string& name, const UnequalLegs& drawn,
                               const std::string& folder);
 
+/// The robot that a study is named: a shipped one, or NAME-unequal or NAME-offset, the one of that
+/// kind with seed 1. Returns its file's path; `folder` gets the files of one that is drawn.
+std::string StudiedRobot(const std::string& name, const std::string& folder);
+
 }  // namespace halfstep::oracle
