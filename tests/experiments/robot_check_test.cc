@@ -7,10 +7,16 @@
 
 #include "experiments/commands/commands.h"
 #include "experiments/config/scaled_defaults.h"
+#include "experiments/survey/rest_torques.h"
 #include "experiments/survey/robot_check_screen.h"
+#include "experiments/survey/self_gaps.h"
+#include "experiments/survey/stance_search.h"
+#include "smoothing/walk/superposed_walk.h"
 #include "tests/experiments/child_process.h"
 #include "tests/temporary_folder.h"
 #include "tests/wpg/shipped_robots.h"
+#include "wpg/motion/posture.h"
+#include "wpg/robot/gravity.h"
 
 namespace halfstep {
 namespace {
@@ -65,6 +71,50 @@ TEST(RobotCheck, SaysWhyARobotDoesNotWalk) {
   EXPECT_THAT(screen, HasSubstr("the third"));
   EXPECT_THAT(screen, testing::Not(HasSubstr("the fourth")));
   EXPECT_TRUE(json::parse(RobotCheckJson(robot, check))["walk"].is_null());
+}
+
+// What the hip's roll axis carries at rest, by hand: the ground's force less the leg's weight.
+TEST(RestTorques, SaysWhatAJointWouldNeed) {
+  RobotModel robot = ShippedRobot("bison");
+  const auto strong = WeakestAtRest(robot);
+  ASSERT_TRUE(strong.has_value());
+  EXPECT_LE(strong->needed, strong->limit);
+  EXPECT_EQ(strong->inside, 0.0);
+  EXPECT_THAT(RestText(*strong, robot.standing_width, "r.yaml"), testing::IsEmpty());
+  robot.legs[0].joints[0].max_torque = 20.0;
+  const auto weak = WeakestAtRest(robot);
+  ASSERT_TRUE(weak.has_value());
+  EXPECT_EQ(weak->joint, robot.legs[0].joints[0].name);
+  // The left foot carries.
+  const HalfStepSequence sequence = SixSteps(robot, DefaultHalfStep(robot));
+  const SuperposedWalk walk(sequence, PlannedMotion(sequence));
+  const Posture posture = SolvePosture(robot, walk.At(walk.start_of(1)).value);
+  const Eigen::Vector3d hip = posture.X_WB * robot.legs[0].joints[0].point_B;
+  const double zmp = walk.At(walk.start_of(1)).value[kZmpY];
+  double about = robot.mass * (zmp - hip.y());
+  for (size_t i = 0; i < 6; ++i) {
+    const BodyMass& link = robot.masses.links[0][i];
+    about -= link.mass * ((posture.X_WLink[0][i] * link.com).y() - hip.y());
+  }
+  EXPECT_NEAR(weak->needed, std::abs(kGravity * about), 1e-6);
+  EXPECT_GT(weak->inside, 0.0);
+  const auto text = RestText(*weak, robot.standing_width, "r.yaml");
+  ASSERT_EQ(text.size(), 2u);
+  EXPECT_THAT(text[0], HasSubstr("at rest on one foot " + weak->joint + " needs "));
+  EXPECT_THAT(text[0], HasSubstr(" of its 20 N m; it would hold only while the CoM were "));
+  EXPECT_THAT(text[1], HasSubstr("`effort_limits_n_m` of r.yaml"));
+  // The more it lacks, the further.
+  robot.legs[0].joints[0].max_torque = 10.0;
+  EXPECT_GT(WeakestAtRest(robot)->inside, weak->inside);
+  robot.masses.fault = "none";
+  EXPECT_FALSE(WeakestAtRest(robot).has_value());
+}
+
+TEST(RobotCheck, SaysWhenNothingFarOutIsCertified) {
+  RobotCheck check = Fabricated();
+  check.reach = {};
+  EXPECT_THAT(RobotCheckScreen(ShippedRobot("wren"), check),
+              HasSubstr("  they reach  nothing: none of those farthest out is certified\n"));
 }
 
 // What is told is certified again, and what is far too high is not climbed.
