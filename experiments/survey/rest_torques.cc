@@ -79,12 +79,13 @@ std::vector<std::string> RestText(const RestTorque& rest, double stance,
   if (!(rest.needed > rest.limit)) return {};
   std::string text = Formatted("at rest on one foot %s needs %.3g of its %.3g N m",
                                rest.joint.c_str(), rest.needed, rest.limit);
-  if (std::isfinite(rest.inside)) {
+  if (rest.inside < stance) {
     text += Formatted(
         "; it would hold only while the CoM were %.2g cm further inside than the ZMP whenever a "
         "foot is in the air",
         100 * rest.inside);
-    if (rest.inside > stance) text += ", which is more than the feet are apart";
+  } else {
+    text += "; no place of the CoM between the feet would relieve it enough";
   }
   return {text, Formatted("what helps then: `effort_limits_n_m` of %s, if the motors give more "
                           "for as long as a step takes; else less mass above the legs",

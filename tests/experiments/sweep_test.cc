@@ -293,7 +293,7 @@ TEST_F(SweepCommandTest, RunsOfOtherFootstepsAreNotTakenOver) {
   WriteText(Folder("b.csv"), footsteps);
   const std::string rest =
       "{robot: hrp2, scene: none, footsteps_file: {path: a.csv},\n"
-      " smoothing: {methods: [raw]}, output: {period_s: 0.1}}\n";
+      " smoothing: {dichotomy: {tolerance_s: 0.1}}, output: {period_s: 0.1}}\n";
   WriteText(Folder("filed.yaml"), rest);
   const auto sweep = [&](const std::string& key, const std::string& values) {
     WriteText(Folder("filed_sweep.yaml"),
