@@ -73,7 +73,7 @@ TEST(RobotCheck, SaysWhyARobotDoesNotWalk) {
   EXPECT_TRUE(json::parse(RobotCheckJson(robot, check))["walk"].is_null());
 }
 
-// What the hip's roll axis carries at rest, by hand: the ground's force less the leg's weight.
+// What the hip's roll axis carries at rest, by hand: the weight of all but its own leg.
 TEST(RestTorques, SaysWhatAJointWouldNeed) {
   RobotModel robot = ShippedRobot("bison");
   const auto strong = WeakestAtRest(robot);
@@ -95,11 +95,11 @@ TEST(RestTorques, SaysWhatAJointWouldNeed) {
   const SuperposedWalk walk(sequence, PlannedMotion(sequence));
   const Posture posture = SolvePosture(robot, walk.At(walk.start_of(1)).value);
   const Eigen::Vector3d hip = posture.X_WB * robot.legs[0].joints[0].point_B;
-  const double zmp = walk.At(walk.start_of(1)).value[kZmpY];
-  double about = robot.mass * (zmp - hip.y());
+  const BodyMass& waist = robot.masses.waist;
+  double about = waist.mass * ((posture.X_WB * waist.com).y() - hip.y());
   for (size_t i = 0; i < 6; ++i) {
-    const BodyMass& link = robot.masses.links[0][i];
-    about -= link.mass * ((posture.X_WLink[0][i] * link.com).y() - hip.y());
+    const BodyMass& link = robot.masses.links[1][i];
+    about += link.mass * ((posture.X_WLink[1][i] * link.com).y() - hip.y());
   }
   EXPECT_NEAR(weak->needed, std::abs(kGravity * about), 1e-6);
   EXPECT_GT(weak->inside, 0.0);
