@@ -21,9 +21,9 @@ ExitStatus CheckRobotFile(const RobotCheckCommand& command) {
                       ": is no robot file (valid: one in .yaml, or a shipped robot's name; "
                       "`halfstep robot URDF` makes one of a URDF)"});
   }
+  InterruptGuard interrupt;
   const RobotModel robot = LoadRobot(path.string());
   if (!command.quiet) TellWarnings(robot);
-  InterruptGuard interrupt;
   std::optional<ProgressBar> bar(std::in_place, robot.name, command.quiet);
   const RobotCheck check =
       CheckRobot(std::filesystem::absolute(path).lexically_normal().string(), robot,
@@ -32,7 +32,7 @@ ExitStatus CheckRobotFile(const RobotCheckCommand& command) {
   bar.reset();
   if (interrupt.token().stop_requested()) {
     std::cerr << "halfstep: robot --check: stopped before its end\n";
-    return kFailed;
+    return kInterrupted;
   }
   std::cout << (command.json ? RobotCheckJson(robot, check) : RobotCheckScreen(robot, check));
   return kSuccess;

@@ -12,6 +12,7 @@
 #include "experiments/run/interrupt.h"
 #include "experiments/run/progress_bar.h"
 #include "experiments/run/run_screen.h"
+#include "experiments/survey/rest_torques.h"
 #include "experiments/survey/robot_picture.h"
 #include "experiments/survey/robot_survey.h"
 #include "experiments/survey/starter_config.h"
@@ -110,14 +111,21 @@ std::string WhyNoRest(const ExperimentRun& run) {
 }
 
 // Walks, proves and tells; whether the walk is certified.
-bool Walk(const RobotModel& robot, const RobotFiles& files, bool quiet) {
-  InterruptGuard interrupt;
+bool Walk(const RobotModel& robot, const RobotFiles& files, bool quiet,
+          const InterruptGuard& interrupt) {
   auto run = WalkSixSteps(files, quiet, interrupt);
   const std::string why = interrupt.requested() ? "" : WhyNoRest(*run);
   if (!why.empty()) {
     std::cerr << "halfstep: " << robot.name << " " << why << "; a search looks for another walk\n";
     WriteWalk(robot, files, why);
     run = WalkSixSteps(files, quiet, interrupt);
+  }
+  const MethodRun& last = run->runs().back();
+  const bool certified = last.certified.answer.verdict == Verdict::kFeasible;
+  if (interrupt.requested() && !certified) {
+    std::cerr << "halfstep: stopped before its six steps were certified or refused; "
+              << files.robot.string() << " stands\n";
+    return false;
   }
   if (!quiet) {
     std::cout << '\n'
@@ -126,13 +134,18 @@ bool Walk(const RobotModel& robot, const RobotFiles& files, bool quiet) {
                                files.walk.string(),
                            "`halfstep run " + files.walk.string() + " --json`"});
   }
-  const MethodRun& last = run->runs().back();
-  if (last.certified.answer.verdict == Verdict::kFeasible) return true;
+  if (certified) return true;
   std::vector<std::string> lines;
   for (const InfeasibleWalk& walk : run->infeasible()) {
     lines = InfeasibleText(run->problem(), walk);
   }
-  if (!why.empty()) lines.push_back(last.method + ": " + last.result.message);
+  if (!why.empty()) {
+    lines.push_back(last.method + ": " + last.result.message);
+    if (const auto rest = WeakestAtRest(robot)) {
+      const auto text = RestText(*rest, robot.standing_width, files.robot.string());
+      lines.insert(lines.begin(), text.begin(), text.end());
+    }
+  }
   TellUnder("the robot file stands, but its six steps are not certified; worst first:", lines);
   return false;
 }
@@ -181,6 +194,7 @@ void AskForNoSurvey(const CLI::App& app) {
 
 ExitStatus SurveyRobotFile(const RobotCommand& command) {
   const RobotFiles files = FilesOf(command);
+  InterruptGuard interrupt;
   SurveyRequest request = command.survey;
   request.out = files.robot;
   const auto [draft, refused] = SurveyRobot(request);
@@ -191,7 +205,8 @@ ExitStatus SurveyRobotFile(const RobotCommand& command) {
   WriteWalk(robot, files, "");
   TellWarnings(robot);
   if (!command.quiet) Tell(draft, robot);
-  return Walk(robot, files, command.quiet) ? kSuccess : kFailed;
+  if (Walk(robot, files, command.quiet, interrupt)) return kSuccess;
+  return interrupt.requested() ? kInterrupted : kFailed;
 }
 
 CommandAction DeclareRobot(CLI::App* app, const Toolbox&) {

@@ -10,6 +10,7 @@
 #include "experiments/config/smoothing_config.h"
 #include "experiments/config/toolbox.h"
 #include "wpg/files/fields.h"
+#include "wpg/files/input_file.h"
 #include "wpg/files/key_description.h"
 #include "wpg/files/yaml_fields.h"
 #include "wpg/geometry/pose2.h"
@@ -45,6 +46,7 @@ struct ExperimentConfig {
   bool has_goal = false;                      ///< else there are footsteps
   GoalConfig goal;                            ///< used when has_goal
   std::vector<FootstepConfig> footsteps;      ///< empty when has_goal
+  std::optional<InputFile> footsteps_file;    ///< that these were read from, if it was one
   PlannerConfig planner;                      ///< used when has_goal
   StepGrid step_set;                          ///< the placements that planners choose from
   SweptVolumesConfig swept_volumes;           ///< of the planners that ask them

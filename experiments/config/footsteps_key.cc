@@ -1,10 +1,12 @@
 #include "experiments/config/footsteps_key.h"
 
+#include <cstdint>
 #include <filesystem>
 
 #include "experiments/config/data_folder.h"
 #include "experiments/config/experiment.h"
 #include "experiments/config/footsteps_file.h"
+#include "wpg/files/regular_file.h"
 #include "wpg/files/text.h"
 #include "wpg/robot/robot_measures.h"
 
@@ -31,6 +33,8 @@ void ReadFootstepsFile(const FootstepsFileConfig& file, const std::string& path,
     start = {Pose2{0.0, y, 0.0}, Pose2{0.0, -y, 0.0}};
   }
   const FiledFootsteps read = ReadFootsteps(path, relative, start);
+  c->footsteps_file = RecordOf(path, TryReadRegularFile(path, std::uint64_t{1} << 30).bytes);
+  c->footsteps_file->name = file.path;
   if (read.start && !c->has_start) {
     c->has_start = true;
     c->start_left = read.start->front();

@@ -1,6 +1,7 @@
 #include "experiments/references/reference_folder.h"
 
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "experiments/build_info.h"
 #include "experiments/tables/certificate_statement.h"
@@ -25,12 +26,27 @@ constexpr const char* kUnfinished = "unfinished";
                     "began)"});
 }
 
+// Whether a folder is what a command left that was killed before its manifest was written; nothing
+// is in it then but what is partial, which goes.
+bool IsBarelyBegun(const fs::path& path) {
+  if (!fs::is_directory(path)) return false;
+  std::vector<fs::path> partial;
+  for (const fs::directory_entry& entry : fs::directory_iterator(path)) {
+    const std::string name = entry.path().filename().string();
+    if (name == kUnfinished && entry.is_directory() && fs::is_empty(entry.path())) continue;
+    if (!name.starts_with(".manifest.json.partial-")) return false;
+    partial.push_back(entry.path());
+  }
+  for (const fs::path& file : partial) fs::remove(file);
+  return true;
+}
+
 }  // namespace
 
 ReferenceFolder::ReferenceFolder(const fs::path& path, const std::string& manifest)
     : path_(fs::absolute(path).lexically_normal()) {
   if (!path_.has_filename()) path_ = path_.parent_path();  // a trailing slash
-  if (fs::exists(fs::symlink_status(path_))) {
+  if (fs::exists(fs::symlink_status(path_)) && !IsBarelyBegun(path_)) {
     const FileBytes there =
         TryReadRegularFile((path_ / "manifest.json").string(), kMostManifestBytes);
     if (!there.refused.empty()) RefuseFolder(path_, "is there already");

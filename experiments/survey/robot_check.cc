@@ -9,6 +9,8 @@
 #include "experiments/config/scaled_defaults.h"
 #include "experiments/run/infeasible_plan.h"
 #include "experiments/run/isolated_step.h"
+#include "experiments/survey/rest_torques.h"
+#include "experiments/survey/self_gaps.h"
 #include "planner/search/step_set.h"
 #include "smoothing/margins/not_covered_by.h"
 #include "smoothing/proof/sampled_feasibility.h"
@@ -51,8 +53,8 @@ class RobotChecker {
     check_.half_steps = set.size();
     Reach(set);
     Told(0.6);
-    const double usual = 0.3 * check_.measures.leg_length;
-    std::vector<double> strides = {usual};
+    // That of the six steps that it takes by default, where the set has none.
+    std::vector<double> strides = {Nth(SixSteps(robot_, check_.half_step).half_steps, 2).X_WS.x};
     if (const double longest = check_.reach.stride; longest > 0.0) {
       strides = {0.7 * longest, longest};
     }
@@ -185,6 +187,10 @@ class RobotChecker {
       run.Explain(hooks_.stop);
       for (const InfeasibleWalk& walk : run.infeasible()) {
         check_.why_no_walk = InfeasibleText(run.problem(), walk);
+      }
+      if (const auto rest = WeakestAtRest(robot_)) {
+        const auto text = RestText(*rest, robot_.standing_width, name_);
+        check_.why_no_walk.insert(check_.why_no_walk.begin(), text.begin(), text.end());
       }
     }
   }

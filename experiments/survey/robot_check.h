@@ -39,13 +39,15 @@ struct SteppedBar {
 
 /// What a robot can do by the defaults of a config without numbers, at a small effort.
 struct RobotCheck {
-  RobotMeasures measures;                ///< of the robot
-  HalfStep half_step;                    ///< duration and via point of all that follows
-  int places = 0;                        ///< of the grid
-  int half_steps = 0;                    ///< of these, those that keep every margin, sampled
-  SetReach reach;                        ///< certified
-  std::optional<StraightWalk> walk;      ///< the fastest of the certified ones that were tried
-  std::vector<std::string> why_no_walk;  ///< what the slowest of them misses; empty: a walk
+  RobotMeasures measures;            ///< of the robot
+  HalfStep half_step;                ///< duration and via point of all that follows
+  int places = 0;                    ///< of the grid
+  int half_steps = 0;                ///< of these, those that keep every margin, sampled
+  SetReach reach;                    ///< certified
+  std::optional<StraightWalk> walk;  ///< the fastest of the certified ones that were tried
+  /// What a joint lacks at rest on one foot (RestText), then what the slowest of them misses;
+  /// empty: a walk.
+  std::vector<std::string> why_no_walk;
   std::optional<SteppedBar> bar;  ///< the highest; none: of the heights tried none is certified
   std::optional<ClimbedStairs> stairs;  ///< the highest (HighestStairs)
   std::vector<NotCovered> not_covered;  ///< what no certificate about the walk speaks of

@@ -51,7 +51,9 @@ std::string WhatItDoes(const RobotModel& robot, const RobotCheck& check) {
       "can do, by half-steps of %.3g s whose foot rises %.3g m:\n"
       "  half-steps  %d of %d places of the swing foot keep every margin (sampled)\n",
       check.half_step.duration, check.half_step.via_height, check.half_steps, check.places);
-  if (check.half_steps > 0) {
+  if (check.half_steps > 0 && !(reach.farthest > 0.0)) {
+    text += "  they reach  nothing: none of those farthest out is certified\n";
+  } else if (check.half_steps > 0) {
     text += Formatted(
         "  they reach  %.3g m forward, %.3g m backward, %.3g to %.3g m aside, toes %.3g deg in and "
         "%.3g deg out (certified)\n",

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
+#include <string_view>
 #include <tuple>
 
 #include "experiments/build_info.h"
@@ -32,16 +33,20 @@ std::string Content(const fs::path& path) {
   return TryReadRegularFile(path.string(), std::uint64_t{1} << 30).bytes;
 }
 
-// SHA-256 over each other config that cases name, and over the files of each robot and each scene.
+// SHA-256 over each other config that cases name, over the files of each robot and each scene, and
+// over each file of footsteps.
 ordered_json FilesOf(const SweepConfig& sweep) {
+  constexpr std::string_view kFootsteps = "footsteps_file.path";
   std::vector<SweepCase> variants(1);
   std::map<std::string, std::string> hashes;
+  std::set<fs::path> folders = {sweep.ConfigPath().parent_path()};  // of the configs
   for (const SweepAxis& axis : sweep.vary) {
     if (axis.key != "robot" && axis.key != "scene" && axis.key != kConfigKey) continue;
     for (const std::string& value : axis.values) {
       variants.push_back({"", {{axis.key, value}}});
       if (axis.key == kConfigKey) {
         hashes[value] = Sha256(ReadYamlFile(sweep.ConfigPath(value).string()));
+        folders.insert(sweep.ConfigPath(value).parent_path());
       }
     }
   }
@@ -50,6 +55,15 @@ ordered_json FilesOf(const SweepConfig& sweep) {
     const Place place = LoadPlace(config);
     hashes[config.robot] = CombinedSha256(place.robot.files);
     hashes[config.scene] = CombinedSha256(place.scene.files);
+    if (config.footsteps_file) hashes[config.footsteps_file->name] = config.footsteps_file->sha256;
+  }
+  for (const SweepAxis& axis : sweep.vary) {
+    if (axis.key != kFootsteps) continue;
+    for (const std::string& value : axis.values) {
+      std::string bytes;
+      for (const fs::path& folder : folders) bytes += Content(folder / value);
+      hashes[value] = Sha256(bytes);
+    }
   }
   return hashes;
 }
@@ -110,7 +124,7 @@ std::string Difference(const std::string& there, const std::string& wanted) {
     const std::string what = key == "cases_sha256" || key == "cases" || key == "keys"
                                  ? "other cases"
                              : key == "config_sha256" ? "another config"
-                             : key == "files_sha256"  ? "another robot or scene file"
+                             : key == "files_sha256"  ? "another robot, scene or footsteps file"
                                                       : "another " + key;
     return "holds a sweep of " + what;
   }

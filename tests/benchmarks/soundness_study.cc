@@ -1,6 +1,7 @@
 // Whether what the query calls free is certified: random elements of the certified set at random
 // places among random boxes, cylinders, spheres and capsules.
 //   soundness_study [N [SEED [ROBOT]]]     default: 100000 half-steps, seed 1, hrp2
+// ROBOT may be NAME-unequal or NAME-offset, whose legs differ (tests/oracle/unequal_legs.h).
 // Prints the figures of planner/README.md, "Swept volumes". Exit status 1: a contradiction. Swept
 // volumes from the user's cache, baked when they are not there. Other robots than HRP-2 among
 // obstacles that are smaller or larger as their legs are. Not a test.
@@ -13,7 +14,9 @@
 #include "experiments/config/experiment.h"
 #include "experiments/run/planning.h"
 #include "planner/swept/swept_volume_query.h"
+#include "tests/oracle/unequal_legs.h"
 #include "tests/planner/swept_volume_draws.h"
+#include "tests/temporary_folder.h"
 #include "tests/wpg/shipped_robots.h"
 
 namespace {
@@ -66,10 +69,12 @@ int main(int argc, char** argv) {
   const long wanted = argc > 1 ? std::atol(argv[1]) : 100000;
   SweptDraw draw(argc > 2 ? std::strtoul(argv[2], nullptr, 10) : 1);
   const std::string name = argc > 3 ? argv[3] : "hrp2";
-  const RobotModel robot = ShippedRobot(name);
+  const TemporaryFolder folder;
+  const std::string path = oracle::StudiedRobot(name, folder.path().string());
+  const RobotModel robot = LoadRobot(path);
   const double size = LegScale(robot);
   const ExperimentConfig config =
-      LoadConfig(HALFSTEP_SOURCE_DIR "/experiments/configs/island.yaml", {{"robot", name}});
+      LoadConfig(HALFSTEP_SOURCE_DIR "/experiments/configs/island.yaml", {{"robot", path}});
   const BakedHalfSteps baked = BakeHalfSteps(robot, config, {});
   const SweptVolumes& volumes = *baked.cached.volumes;
   Counts n;

@@ -1,11 +1,14 @@
 // What swept volumes contain, by how much they are too large, and what that costs. Prints the
 // figures of planner/README.md, "Swept volumes". Not a test.
 //
-//   swept_volume_study contain N       random points of the moving robot in their volumes
-//   swept_volume_study inflate K       distance of K surface points from the robot, over elements
-//   swept_volume_study refuse N        free half-steps refused, by resolution; N half-steps each
-//   swept_volume_study exact N         verdicts against all solid boxes one by one, in double
+//   swept_volume_study contain N [ROBOT]   random points of the moving robot in their volumes
+//   swept_volume_study inflate K           distance of K surface points from the robot, over
+//   elements swept_volume_study refuse N            free half-steps refused, by resolution; N
+//   half-steps each swept_volume_study exact N             verdicts against all solid boxes one by
+//   one, in double
 //
+// ROBOT: hrp2, or another one, or NAME-unequal or NAME-offset, whose legs differ
+// (tests/oracle/unequal_legs.h).
 // The volumes of the whole set are kept in a cache folder beside other temporary files.
 
 #include <algorithm>
@@ -20,7 +23,9 @@
 #include "planner/collision/collision_world.h"
 #include "planner/collision/convex_distance.h"
 #include "planner/swept/swept_volume_cache.h"
+#include "tests/oracle/unequal_legs.h"
 #include "tests/planner/swept_volume_draws.h"
+#include "tests/temporary_folder.h"
 #include "wpg/motion/half_step_tracks.h"
 #include "wpg/motion/lipm.h"
 
@@ -39,12 +44,12 @@ double Quantile(std::vector<double> values, double fraction) {
   return values[k];
 }
 
-SweptVolumes Get(const StepSet& set, const SweptVolumeOptions& options) {
+SweptVolumes Get(const StepSet& set, const SweptVolumeOptions& options,
+                 const RobotModel& robot = SweptRobot()) {
   const std::string folder =
       (std::filesystem::temp_directory_path() / "halfstep-swept-study").string();
   const double begin = Seconds();
-  CachedVolumes cached =
-      LoadOrBakeSweptVolumes(SweptRobot(), LipmOf(SweptRobot()), set, options, folder);
+  CachedVolumes cached = LoadOrBakeSweptVolumes(robot, LipmOf(robot), set, options, folder);
   const double took = Seconds() - begin;
   size_t nodes = 0, boxes = 0, none = 0;
   double volume = 0;
@@ -82,10 +87,11 @@ HalfStep Choose(const SweptVolumes& volumes, SweptDraw* draw, const BoxTree** tr
   }
 }
 
-void Contain(long draws) {
-  const RobotModel& robot = SweptRobot();
+void Contain(long draws, const std::string& name) {
+  const TemporaryFolder folder;
+  const RobotModel robot = LoadRobot(oracle::StudiedRobot(name, folder.path().string()));
   const SweptVolumeOptions options;
-  const SweptVolumes volumes = Get(WalkableSet(robot), options);
+  const SweptVolumes volumes = Get(WalkableSet(robot), options, robot);
   SweptDraw draw(1);
   long outside = 0, outside_clearance = 0, done = 0;
   while (done < draws) {
@@ -326,7 +332,7 @@ int main(int argc, char** argv) {
   const std::string what = argc > 1 ? argv[1] : "";
   const long number = argc > 2 ? std::atol(argv[2]) : 0;
   if (what == "contain") {
-    halfstep::Contain(number > 0 ? number : 1000000);
+    halfstep::Contain(number > 0 ? number : 1000000, argc > 3 ? argv[3] : "hrp2");
   } else if (what == "inflate") {
     halfstep::Inflate(number > 0 ? static_cast<int>(number) : 200);
   } else if (what == "refuse") {

@@ -7,10 +7,16 @@
 
 #include "experiments/commands/commands.h"
 #include "experiments/config/scaled_defaults.h"
+#include "experiments/survey/rest_torques.h"
 #include "experiments/survey/robot_check_screen.h"
+#include "experiments/survey/self_gaps.h"
+#include "experiments/survey/stance_search.h"
+#include "smoothing/walk/superposed_walk.h"
 #include "tests/experiments/child_process.h"
 #include "tests/temporary_folder.h"
 #include "tests/wpg/shipped_robots.h"
+#include "wpg/motion/posture.h"
+#include "wpg/robot/gravity.h"
 
 namespace halfstep {
 namespace {
@@ -66,6 +72,53 @@ TEST(RobotCheck, SaysWhyARobotDoesNotWalk) {
   EXPECT_THAT(screen, testing::Not(HasSubstr("the fourth")));
   EXPECT_THAT(screen, HasSubstr("no stairs at treads of 13.5 cm, of the rises from 0.16 cm"));
   EXPECT_TRUE(json::parse(RobotCheckJson(robot, check))["walk"].is_null());
+}
+
+// What the hip's roll axis carries at rest, by hand: the weight of all but its own leg.
+TEST(RestTorques, SaysWhatAJointWouldNeed) {
+  RobotModel robot = ShippedRobot("bison");
+  const auto strong = WeakestAtRest(robot);
+  ASSERT_TRUE(strong.has_value());
+  EXPECT_LE(strong->needed, strong->limit);
+  EXPECT_EQ(strong->inside, 0.0);
+  EXPECT_THAT(RestText(*strong, robot.standing_width, "r.yaml"), testing::IsEmpty());
+  robot.legs[0].joints[0].max_torque = 1.0;
+  const auto feeble = WeakestAtRest(robot);
+  ASSERT_TRUE(feeble.has_value());
+  EXPECT_THAT(RestText(*feeble, robot.standing_width, "r.yaml")[0],
+              HasSubstr("; no place of the CoM between the feet would relieve it enough"));
+  robot.legs[0].joints[0].max_torque = 0.97 * feeble->needed;
+  const auto weak = WeakestAtRest(robot);
+  ASSERT_TRUE(weak.has_value());
+  EXPECT_EQ(weak->joint, robot.legs[0].joints[0].name);
+  // The left foot carries.
+  const HalfStepSequence sequence = SixSteps(robot, DefaultHalfStep(robot));
+  const SuperposedWalk walk(sequence, PlannedMotion(sequence));
+  const Posture posture = SolvePosture(robot, walk.At(walk.start_of(1)).value);
+  const Eigen::Vector3d hip = posture.X_WB * robot.legs[0].joints[0].point_B;
+  const BodyMass& waist = robot.masses.waist;
+  double about = waist.mass * ((posture.X_WB * waist.com).y() - hip.y());
+  for (size_t i = 0; i < 6; ++i) {
+    const BodyMass& link = robot.masses.links[1][i];
+    about += link.mass * ((posture.X_WLink[1][i] * link.com).y() - hip.y());
+  }
+  EXPECT_NEAR(weak->needed, std::abs(kGravity * about), 1e-6);
+  EXPECT_GT(weak->inside, 0.0);
+  const auto text = RestText(*weak, robot.standing_width, "r.yaml");
+  ASSERT_EQ(text.size(), 2u);
+  EXPECT_THAT(text[0], HasSubstr("at rest on one foot " + weak->joint + " needs "));
+  EXPECT_THAT(text[0], HasSubstr(" N m; it would hold only while the CoM were "));
+  EXPECT_THAT(text[1], HasSubstr("`effort_limits_n_m` of r.yaml"));
+  EXPECT_GT(feeble->inside, weak->inside);  // the more it lacks, the further
+  robot.masses.fault = "none";
+  EXPECT_FALSE(WeakestAtRest(robot).has_value());
+}
+
+TEST(RobotCheck, SaysWhenNothingFarOutIsCertified) {
+  RobotCheck check = Fabricated();
+  check.reach = {};
+  EXPECT_THAT(RobotCheckScreen(ShippedRobot("wren"), check),
+              HasSubstr("  they reach  nothing: none of those farthest out is certified\n"));
 }
 
 // What is told is certified again, and what is far too high is not climbed.

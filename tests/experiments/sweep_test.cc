@@ -286,6 +286,35 @@ TEST_F(SweepCommandTest, IsReportedOnceItIsCollected) {
   EXPECT_THAT(compared.err, HasSubstr("is the folder of a sweep"));
 }
 
+// Of a config's own file of footsteps, and of those that cases name.
+TEST_F(SweepCommandTest, RunsOfOtherFootstepsAreNotTakenOver) {
+  const std::string footsteps = "foot,x_m,y_m,yaw_rad\nright,0.2,-0.105,0\n";
+  WriteText(Folder("a.csv"), footsteps);
+  WriteText(Folder("b.csv"), footsteps);
+  const std::string rest =
+      "{robot: hrp2, scene: none, footsteps_file: {path: a.csv},\n"
+      " smoothing: {dichotomy: {tolerance_s: 0.1}}, output: {period_s: 0.1}}\n";
+  WriteText(Folder("filed.yaml"), rest);
+  const auto sweep = [&](const std::string& key, const std::string& values) {
+    WriteText(Folder("filed_sweep.yaml"),
+              "config: filed.yaml\nvary: [{key: " + key + ", values: [" + values + "]}]\n");
+    return Halfstep(place_->path(), {"sweep", "filed_sweep.yaml", "--jobs", "1", "--out",
+                                     "filed_" + key, "--quiet"});
+  };
+  const std::array<std::array<std::string, 2>, 2> cases = {
+      {{"half_step.via_height_m", "0.2"}, {"footsteps_file.path", "b.csv"}}};
+  for (const auto& [key, values] : cases) {
+    ASSERT_EQ(sweep(key, values).status, kSuccess);
+    EXPECT_EQ(sweep(key, values).status, kSuccess);
+    const fs::path changed = Folder(key == "footsteps_file.path" ? "b.csv" : "a.csv");
+    WriteText(changed, footsteps + "left,0.4,0.105,0\n");
+    const Outcome outcome = sweep(key, values);
+    EXPECT_EQ(outcome.status, kBadInput);
+    EXPECT_THAT(outcome.err, HasSubstr("holds a sweep of another robot, scene or footsteps file"));
+    WriteText(changed, footsteps);
+  }
+}
+
 TEST_F(SweepCommandTest, AnotherDefinitionIsRefused) {
   const auto before = Bytes("reference");
   const auto refused = [&](const std::vector<std::string>& more, const std::string& why) {
@@ -303,7 +332,7 @@ TEST_F(SweepCommandTest, AnotherDefinitionIsRefused) {
   WriteText(Folder("base.yaml"), base);
   const std::string hole = ReadText(Folder("hole.yaml"));
   WriteText(Folder("hole.yaml"), hole + "# changed\n");
-  refused({}, "holds a sweep of another robot or scene file");
+  refused({}, "holds a sweep of another robot, scene or footsteps file");
   WriteText(Folder("hole.yaml"), hole);
   EXPECT_TRUE(Bytes("reference") == before);
   fs::create_directories(Folder("mine/letters"));

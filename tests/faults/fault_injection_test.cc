@@ -90,6 +90,12 @@ std::vector<Scenario> Scenarios() {
       {"Sweep", WriteSweep, {"sweep", "sweep.yaml", "--out", "s", "--jobs", "1"}, "s", false},
       {"Scene", WriteRoom, {"scene", "room.scene", "--out", "r.yaml", "--overwrite"}, "."},
       {"Draw", [](const fs::path&) {}, {"draw", "cylinders", "--count", "3"}, "."},
+      {"References",
+       [](const fs::path&) {},
+       {"draw", "references", "--count", "1", "--robot", "wren", "--format", "lafan1", "--jobs",
+        "1", "--out", "r", "--quiet"},
+       "r",
+       false},
   };
   if (HasReport()) {
     all.push_back({"Report", MakeRun, {"report", "a"}, "a"});

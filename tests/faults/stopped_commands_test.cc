@@ -12,6 +12,7 @@
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/run_check.h"
 #include "tests/temporary_folder.h"
+#include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 namespace {
@@ -78,6 +79,7 @@ TEST(StoppedCommand, RunAmongManyTrianglesEnds) {
 TEST(StoppedCommand, EveryCommandEndsAndLeavesWholeFiles) {
   const TemporaryFolder place;
   const std::string walk = ShippedConfig("bar_8cm");
+  const std::string robots = HALFSTEP_SOURCE_DIR "/wpg/robots/";
   ASSERT_EQ(Halfstep(place.path(), {"run", walk, "--out", "a", "--quiet"}).status, kSuccess);
   const std::string cache = "swept_volumes.cache=" + (place / "cache").string();
   WriteText(place / "sweep.yaml",
@@ -94,6 +96,9 @@ TEST(StoppedCommand, EveryCommandEndsAndLeavesWholeFiles) {
       {"plan", ShippedConfig("clutter"), "--set", cache},
       {"list", "half-steps", ShippedConfig("island")},
       {"sweep", "sweep.yaml", "--out", "s", "--jobs", "1"},
+      {"robot", robots + "hrp2.urdf", "--package", "hrp2_bodies=" + robots + "hrp2", "--out",
+       "r.yaml"},
+      {"robot", "hrp2", "--check"},
   };
   std::mt19937 random(11);
   for (const std::vector<std::string>& command : commands) {
@@ -101,6 +106,10 @@ TEST(StoppedCommand, EveryCommandEndsAndLeavesWholeFiles) {
     std::uniform_int_distribution<int> wait(10, 600);
     Stopped(place.path(), command, std::chrono::milliseconds(wait(random)));
     CheckRunIsWhole(place / "a", {"dichotomy", "dichotomy_published"});
+  }
+  if (fs::exists(place / "r.yaml")) LoadRobot((place / "r.yaml").string());
+  for (const auto& entry : fs::directory_iterator(place.path())) {
+    EXPECT_THAT(entry.path().filename().string(), testing::Not(testing::StartsWith(".r")));
   }
   if (fs::exists(place / "b")) CheckRunIsWhole(place / "b", {"dichotomy", "dichotomy_published"});
 }

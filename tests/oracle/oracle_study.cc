@@ -1,6 +1,8 @@
 // Asks the project about nasty walks and scenes and judges every answer by the oracle. Prints the
 // tables of tests/oracle/README.md; exit status 1 when an answer was false.
-// Run: oracle_study [WALKS [SEED [ROBOT|all [KIND|flat|levels [FILE]]]]]
+// Run: oracle_study [WALKS [SEED [ROBOT|all|unequal|offset [KIND|flat|levels [FILE]]]]]
+// unequal: each walk has a robot of its own whose legs differ (unequal_legs.h); offset: and their
+// axes miss each other.
 // FILE gets a line for each walk. Walks that it has are not judged again, and the tables are of all
 // its lines: a study that was stopped goes on, and seeds add up.
 
@@ -18,6 +20,7 @@
 
 #include "tests/oracle/judge.h"
 #include "tests/oracle/project_side.h"
+#include "tests/oracle/unequal_legs.h"
 #include "tests/temporary_folder.h"
 
 namespace halfstep::oracle {
@@ -106,9 +109,15 @@ int Run(long walks, unsigned seed, const std::string& only_robot, const std::str
   std::vector<std::string> names = {"hrp2", "bison", "wren"};
   if (only_robot != "all") names = {only_robot};
   const TemporaryFolder folder;
+  const bool offset = only_robot == "offset", unequal = offset || only_robot == "unequal";
+  if (unequal) names = {"hrp2", "bison", "wren"};
   std::vector<std::unique_ptr<Judge>> judges;
-  for (const std::string& name : names) {
-    judges.push_back(std::make_unique<Judge>(WriteJudgedRobot(name, folder.path().string())));
+  for (std::string& name : names) {
+    if (unequal) {
+      name += "-" + only_robot;
+    } else {
+      judges.push_back(std::make_unique<Judge>(WriteJudgedRobot(name, folder.path().string())));
+    }
   }
   int first = 0, count = kNumSceneKinds;
   if (kinds == "levels") {
@@ -131,9 +140,17 @@ int Run(long walks, unsigned seed, const std::string& only_robot, const std::str
     const std::string name = std::to_string(seed) + " " + std::to_string(w) + " " + names[robot] +
                              " " + std::to_string(kind);
     if (known.contains(name)) continue;
-    const Tally tally = judges[robot]->JudgeOne(static_cast<SceneKind>(kind),
-                                                seed * 1000000u + static_cast<unsigned>(w),
-                                                folder.path().string(), &falsehoods);
+    const unsigned of_walk = seed * 1000000u + static_cast<unsigned>(w);
+    const TemporaryFolder own;
+    std::unique_ptr<Judge> drawn;
+    if (unequal) {
+      const std::string shipped = names[robot].substr(0, names[robot].find('-'));
+      drawn = std::make_unique<Judge>(
+          WriteUnequalRobot(shipped, {.seed = of_walk, .offset = offset}, own.path().string()));
+    }
+    const Judge& judge = drawn ? *drawn : *judges[robot];
+    const Tally tally =
+        judge.JudgeOne(static_cast<SceneKind>(kind), of_walk, folder.path().string(), &falsehoods);
     sums.Add(names[robot], kind, tally);
     for (const std::string& line : tally.missed) lines << "# not found: " << line << "\n";
     for (; told < falsehoods.size(); ++told) {

@@ -1,4 +1,5 @@
 // Forward and inverse kinematics of the oracle's robot.
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -18,6 +19,21 @@ Vector6 Error(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) {
   error << (small.norm() < 1e-3 && R.trace() > 0 ? small : turn.angle() * turn.axis()),
       to.translation() - from.translation();
   return error;
+}
+
+// The point nearest to the axes of some joints at q = 0, in the waist frame: Σ(1 − aaᵀ)(x − p) = 0.
+Eigen::Vector3d NearestToAxes(const PlainRobot& robot, int leg, size_t first, size_t count) {
+  const auto placed = robot.PlaceLeg(leg, Vector6::Zero());
+  Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d b(0, 0, 0);
+  for (size_t j = first; j < first + count; ++j) {
+    const int joint = robot.legs[static_cast<size_t>(leg)].joints[j];
+    const Eigen::Vector3d axis = robot.joints[static_cast<size_t>(joint)].axis;
+    const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - axis * axis.transpose();
+    A += across;
+    b += across * placed[j].translation();
+  }
+  return A.fullPivLu().solve(b);
 }
 
 }  // namespace
@@ -50,21 +66,23 @@ Eigen::Matrix<double, 6, 6> PlainRobot::Jacobian(
   return J;
 }
 
-Eigen::Vector3d PlainRobot::HipInWaist(int leg) const {
-  return joints[static_cast<size_t>(legs[static_cast<size_t>(leg)].joints[0])].xyz;
-}
+Eigen::Vector3d PlainRobot::HipInWaist(int leg) const { return NearestToAxes(*this, leg, 0, 3); }
 
 Eigen::Vector3d PlainRobot::AnkleInSole(int leg) const {
   return -legs[static_cast<size_t>(leg)].sole;  // the foot's frame is where the ankle axes meet
 }
 
+double PlainRobot::HipToAnkle(int leg, double knee) const {
+  Vector6 q = Vector6::Zero();
+  const Eigen::Vector3d ankle =
+      PlaceLeg(leg, q)[3].inverse() * NearestToAxes(*this, leg, 4, 2);  // on the shank
+  q[3] = knee;
+  return (PlaceLeg(leg, q)[3] * ankle - HipInWaist(leg)).norm();
+}
+
 // Golden section on the knee's angle: the distance has one maximum about the stretched knee.
 double PlainRobot::LongestReach(int leg) const {
-  const auto reach = [&](double knee) {
-    Vector6 q = Vector6::Zero();
-    q[3] = knee;
-    return (PlaceLeg(leg, q)[5].translation() - HipInWaist(leg)).norm();
-  };
+  const auto reach = [&](double knee) { return HipToAnkle(leg, knee); };
   double low = -1, high = 1;
   const double golden = 0.5 * (std::sqrt(5.0) - 1);
   while (high - low > 1e-8) {

@@ -164,10 +164,9 @@ void PlainRobot::FindLegs() {
     for (size_t j = 6; j-- > 0; link = links[static_cast<size_t>(link)].parent) {
       leg.joints[j] = links[static_cast<size_t>(link)].joint;
     }
+    if (link != waist) throw std::runtime_error("oracle: a leg of another kind");
     const auto at = [&](size_t j) { return joints[static_cast<size_t>(leg.joints[j])].xyz; };
-    if (link != waist || at(1).norm() + at(2).norm() + at(5).norm() > 0) {
-      throw std::runtime_error("oracle: a leg of another kind");
-    }
+    leg.axes_meet = at(1).norm() + at(2).norm() + at(5).norm() == 0;
   }
 }
 

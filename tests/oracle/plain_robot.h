@@ -11,8 +11,8 @@ namespace halfstep::oracle {
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 /// A robot read by the oracle's own few lines from its YAML file, URDF and OBJ meshes. They read
-/// what HRP-2's files hold and no more: no rpy, mesh bodies only, three hip joints in one point,
-/// two ankle joints in one point. Anything else throws std::runtime_error.
+/// what HRP-2's files hold and no more: no rpy, mesh bodies only. Anything else throws
+/// std::runtime_error.
 struct PlainRobot {
   /// Of what no file limits.
   static constexpr double kUnknown = std::numeric_limits<double>::infinity();
@@ -44,6 +44,8 @@ struct PlainRobot {
     std::array<int, 6> joints{};
     int foot_link = -1;
     Eigen::Vector3d sole{0, 0, 0};  ///< in the frame of that link [m]
+    /// Whether three hip joints are in one point, and two ankle joints in one.
+    bool axes_meet = true;
   };
 
   explicit PlainRobot(const std::string& yaml_path);
@@ -72,9 +74,12 @@ struct PlainRobot {
   /// each joint's speed.
   Eigen::Matrix<double, 6, 6> Jacobian(int leg,
                                        const std::array<Eigen::Isometry3d, 7>& placed) const;
-  /// Hip and ankle: the points where three and two axes meet; and how far they are apart at most.
+  /// Hip and ankle: the points where three and two axes meet, or nearest to these at q = 0, then
+  /// fixed on thigh and shank.
   Eigen::Vector3d HipInWaist(int leg) const;
-  Eigen::Vector3d AnkleInSole(int leg) const;
+  Eigen::Vector3d AnkleInSole(int leg) const;  ///< where the axes meet
+  /// Their distance, which the knee alone changes [m]; and how far they are apart at most.
+  double HipToAnkle(int leg, double knee) const;
   double LongestReach(int leg) const;
   /// Newton's method from `q`, with steps halved until the error falls. False: it does not reach.
   bool SolveLeg(int leg, const Eigen::Isometry3d& X_BSole, Vector6* q) const;

@@ -152,6 +152,10 @@ void WalkTruth::AddLegStatements() {
     const size_t i = static_cast<size_t>(leg);
     statements_.push_back({"reach", leg == 0 ? "left leg" : "right leg", 2.0,
                            [this, leg, i](Instant& at, const Stretch&) {
+                             if (!robot_.legs[i].axes_meet) {
+                               if (!at.reaches) return Exactly(-kNever);
+                               return Exactly(longest_[i] - robot_.HipToAnkle(leg, at.q[i][3]));
+                             }
                              const Eigen::Vector3d hip = at.X_WB * robot_.HipInWaist(leg);
                              const Eigen::Vector3d ankle = at.X_WSole[i] * robot_.AnkleInSole(leg);
                              return Exactly(longest_[i] - (hip - ankle).norm());
