@@ -13,8 +13,13 @@ PlanResult Replanner::Plan(const std::array<Foothold, 2>& stance,
                            const std::optional<StepState>& in_air, const PreparedWorld& among,
                            const NearRest* near, bool rests, std::int64_t max_nodes,
                            std::mt19937_64& random) const {
-  PlanResult result = Search(stance, in_air, among, near, *among.query, max_nodes, random);
   const bool by_volumes = half_steps_.volumes() != nullptr;
+  const auto search = [&](const HalfStepQuery& query, std::int64_t nodes) {
+    PlanResult found = Search(stance, in_air, among, near, query, nodes, random);
+    if (!by_volumes) found.nodes += found.queries;
+    return found;
+  };
+  PlanResult result = search(*among.query, max_nodes);
   if (!rests || result.status != PlanStatus::kNoPlan || (!by_volumes && !near)) return result;
   // Where the robot rests near an obstacle, it may take more than one half-step to get away.
   const std::int64_t nodes = result.nodes;
@@ -22,10 +27,10 @@ PlanResult Replanner::Plan(const std::array<Foothold, 2>& stance,
     const NearStartQuery query(half_steps_.set(), *among.query,
                                near ? near->certifier() : among.certifier,
                                MidFeet(stance[0].Planar(), stance[1].Planar()).position());
-    result = Search(stance, in_air, among, near, query, max_nodes - nodes, random);
+    result = search(query, max_nodes - nodes);
   } else {
     const auto query = half_steps_.Among(near->safety().evaluator().scene());
-    result = Search(stance, in_air, among, near, *query, max_nodes - nodes, random);
+    result = search(*query, max_nodes - nodes);
   }
   result.nodes += nodes;
   return result;
@@ -48,9 +53,15 @@ PlanResult Replanner::Search(const std::array<Foothold, 2>& stance,
     return up.X_SF.height <= up.via_height &&
            (near ? near->certifier() : among.certifier).Certifies(up, X_WS);
   };
-  request.stop = AnyOf({AfterNodes(max_nodes), options.unimproved_nodes == 0
-                                                   ? AtFirstPlan()
-                                                   : WhenNotImprovedFor(options.unimproved_nodes)});
+  // A proof takes longer than a node.
+  const bool by_volumes = half_steps_.volumes() != nullptr;
+  const auto used_up = [max_nodes, by_volumes](const PlanProgress& progress) {
+    const std::int64_t proofs = by_volumes ? 0 : progress.queries;
+    return progress.nodes + proofs >= max_nodes ? StopReason::kBudget : StopReason::kGoOn;
+  };
+  request.stop = AnyOf({used_up, options.unimproved_nodes == 0
+                                     ? AtFirstPlan()
+                                     : WhenNotImprovedFor(options.unimproved_nodes)});
   return options.known.Make(options.name, among.world.scene, options.options)
       ->Plan(request, random);
 }

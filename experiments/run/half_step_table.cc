@@ -4,13 +4,13 @@
 #include <cmath>
 
 #include "wpg/files/number_text.h"
+#include "wpg/robot/reference_leg.h"
 #include "wpg/robot/robot_measures.h"
 
 namespace halfstep {
 
 double SizeOf(const RobotModel& robot) {
-  constexpr double kHrp2sLeg = 0.705;  // [m]
-  return LegLengthOf(robot) / kHrp2sLeg;
+  return LegLengthOf(robot) / kLegOfHrp2;
 }
 
 std::vector<HalfStepConfig> HalfStepTable(const HalfStepConfig& own, double highest, double size) {

@@ -16,6 +16,7 @@
 #include "experiments/live/past_worlds.h"
 #include "experiments/live/prepared_world.h"
 #include "experiments/live/replanner.h"
+#include "experiments/run/baked_half_steps.h"
 
 namespace {
 
