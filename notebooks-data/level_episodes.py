@@ -71,7 +71,7 @@ start:
   right: {{x_m: -0.15, y_m: -0.085, z_m: {z:.3f}}}
 goal: {{x_m: 1.9, y_m: 0, radius_m: 0.2}}
 seed: {seed}
-planner: {{name: astar, max_nodes: 400, unimproved_nodes: 0, workspace_m: [-0.6, -0.9, 2.4, 0.9]}}
+planner: {{name: astar, max_nodes: 1200, unimproved_nodes: 0, workspace_m: [-0.6, -0.9, 2.4, 0.9]}}
 live:
   sensing: {{rests_after_s: 6}}
 """
