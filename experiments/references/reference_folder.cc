@@ -26,9 +26,9 @@ constexpr const char* kUnfinished = "unfinished";
                     "began)"});
 }
 
-// Whether a folder is what a command left that was killed before its manifest was written; nothing
-// is in it then but what is partial, which goes.
-bool IsBarelyBegun(const fs::path& path) {
+// Whether a folder is what a command left that was killed before its manifest was written: nothing
+// is in it but what is partial. Then that is removed.
+bool ClearIfBarelyBegun(const fs::path& path) {
   if (!fs::is_directory(path)) return false;
   std::vector<fs::path> partial;
   for (const fs::directory_entry& entry : fs::directory_iterator(path)) {
@@ -46,7 +46,7 @@ bool IsBarelyBegun(const fs::path& path) {
 ReferenceFolder::ReferenceFolder(const fs::path& path, const std::string& manifest)
     : path_(fs::absolute(path).lexically_normal()) {
   if (!path_.has_filename()) path_ = path_.parent_path();  // a trailing slash
-  if (fs::exists(fs::symlink_status(path_)) && !IsBarelyBegun(path_)) {
+  if (fs::exists(fs::symlink_status(path_)) && !ClearIfBarelyBegun(path_)) {
     const FileBytes there =
         TryReadRegularFile((path_ / "manifest.json").string(), kMostManifestBytes);
     if (!there.refused.empty()) RefuseFolder(path_, "is there already");
