@@ -29,7 +29,7 @@ constexpr const char* kUnfinished = "unfinished";
 // Whether a folder is what a command left that was killed before its manifest was written: nothing
 // is in it but what is partial. Then that is removed.
 bool ClearIfBarelyBegun(const fs::path& path) {
-  if (!fs::is_directory(path)) return false;
+  if (!fs::is_directory(path / kUnfinished)) return false;
   std::vector<fs::path> partial;
   for (const fs::directory_entry& entry : fs::directory_iterator(path)) {
     const std::string name = entry.path().filename().string();

@@ -1,6 +1,5 @@
 #include "experiments/survey/rest_torques.h"
 
-#include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -8,6 +7,7 @@
 #include "experiments/survey/self_gaps.h"
 #include "experiments/survey/stance_search.h"
 #include "smoothing/walk/superposed_walk.h"
+#include "wpg/elementary.h"
 #include "wpg/files/text.h"
 #include "wpg/motion/foot_loads.h"
 #include "wpg/motion/leg_torques.h"
@@ -48,8 +48,8 @@ std::optional<RestTorque> WeakestAtRest(const RobotModel& robot) {
     const Side support = Nth(sequence.half_steps, i).half_step.support;
     const Eigen::Vector2d inwards =
         x.segment<2>(FootIndex(Opposite(support))) - x.segment<2>(FootIndex(support));
-    const Eigen::Vector2d aside =
-        Eigen::Rotation2Dd(x[kWaistYaw]) * Eigen::Vector2d(0, support == Side::kLeft ? -1 : 1);
+    const double yaw = x[kWaistYaw], towards = support == Side::kLeft ? -1 : 1;
+    const Eigen::Vector2d aside = towards * Eigen::Vector2d(-Sin(yaw), Cos(yaw));
     const auto rest = TorquesAt(robot, x, support, {0, 0});
     const auto moved = TorquesAt(robot, x, support, aside);  // by 1 m/s²
     if (!rest || !moved || inwards.dot(aside) <= 0) return std::nullopt;
