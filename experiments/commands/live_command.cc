@@ -190,8 +190,14 @@ struct Thinking {
 Thinking Prepare(const Place& place, bool silent, const std::stop_token& stop, LiveConfig* config) {
   Thinking made;
   if (FreeByProofs(place, config->experiment)) {
-    config->experiment = WithFormFor(place, config->experiment, stop);
-    if (!stop.stop_requested()) made.replanner = std::make_unique<const Replanner>(place, *config);
+    const EpisodeForm form = FormFor(place, config->experiment, stop);
+    config->experiment.half_step = form.half_step;
+    if (stop.stop_requested()) return made;
+    if (!form.why_none.empty()) {
+      std::cerr << "halfstep: warning: no way to the goal even where nothing stands: "
+                << form.why_none << '\n';
+    }
+    made.replanner = std::make_unique<const Replanner>(place, *config);
     return made;
   }
   ProgressBar bar("half-steps", silent);
@@ -226,7 +232,7 @@ ExitStatus Live(const LiveCommand& command) {
   const bool silent = command.run.quiet || command.run.json;
   const Thinking thinking = Prepare(place, silent, interrupt.token(), &config);
   if (!thinking.replanner) {
-    std::cerr << "halfstep: interrupted while half-steps were baked\n";
+    std::cerr << "halfstep: interrupted before the episode began\n";
     return kInterrupted;
   }
   if (served) served->Prepare(thinking.volumes);

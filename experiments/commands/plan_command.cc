@@ -9,6 +9,7 @@
 #include "experiments/commands/commands.h"
 #include "experiments/config/experiment.h"
 #include "experiments/run/interrupt.h"
+#include "experiments/run/plan_json.h"
 #include "experiments/run/planning.h"
 #include "experiments/run/progress_bar.h"
 #include "wpg/files/input_error.h"

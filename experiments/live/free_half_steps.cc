@@ -87,9 +87,9 @@ bool FreeByProofs(const Place& place, const ExperimentConfig& config) {
   return HasLevels(*place.scene.ground) || config.planner.free_by == "certificates";
 }
 
-ExperimentConfig WithFormFor(const Place& place, const ExperimentConfig& config,
-                             const std::stop_token& stop) {
-  if (!HasLevels(*place.scene.ground)) return config;
+EpisodeForm FormFor(const Place& place, const ExperimentConfig& config,
+                    const std::stop_token& stop) {
+  if (!HasLevels(*place.scene.ground)) return {config.half_step};
   if (config.planner.free_by == "volumes") {
     throw InputError(
         {"planner.free_by: volumes know no ground that a walk is replanned on when it "
@@ -97,9 +97,8 @@ ExperimentConfig WithFormFor(const Place& place, const ExperimentConfig& config,
   }
   const PlannedWalk walk =
       PlanWalk(config, {.robot = place.robot, .scene = place.scene.Emptied()}, {.stop = stop});
-  ExperimentConfig formed = config;
-  if (walk.plan.status == PlanStatus::kSolved) formed.half_step = walk.config.half_step;
-  return formed;
+  if (walk.plan.status == PlanStatus::kSolved) return {walk.config.half_step};
+  return {config.half_step, walk.plan.sentence};
 }
 
 }  // namespace halfstep

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <stop_token>
+#include <string>
 
 #include "experiments/config/experiment.h"
 #include "experiments/run/certificate_query.h"
@@ -22,6 +23,8 @@ class FreeHalfSteps {
   /// By proofs, on the ground of the place. What the ground has a say in is proved once, among
   /// whatever obstacles are asked about.
   FreeHalfSteps(const Place& place, const ExperimentConfig& config);
+  FreeHalfSteps(const FreeHalfSteps&) = delete;  // answers borrow the set
+  FreeHalfSteps& operator=(const FreeHalfSteps&) = delete;
 
   const StepSet& set() const;  ///< all of them
   /// Null: by proofs.
@@ -45,11 +48,18 @@ class FreeHalfSteps {
 /// config says so (`planner.free_by`).
 bool FreeByProofs(const Place& place, const ExperimentConfig& config);
 
-/// The config of an episode on ground with levels, with the first form of half-steps by which its
-/// start and its goal are joined where nothing stands (planner/README.md, "By certificates");
-/// unchanged where there is none, or the ground is flat. Throws InputError as PlanWalk, and where
-/// the config asks for volumes on levels.
-ExperimentConfig WithFormFor(const Place& place, const ExperimentConfig& config,
-                             const std::stop_token& stop = {});
+/// The form of an episode's half-steps.
+struct EpisodeForm {
+  HalfStepConfig half_step;  ///< as a config has it
+  /// Why start and goal are not joined even where nothing stands; "": they are, or the ground is
+  /// flat.
+  std::string why_none = {};
+};
+/// On ground with levels the first form by which an episode's start and goal are joined where
+/// nothing stands (planner/README.md, "By certificates"); the config's own where there is none, or
+/// the ground is flat. Throws InputError as PlanWalk, and where the config asks for volumes on
+/// levels.
+EpisodeForm FormFor(const Place& place, const ExperimentConfig& config,
+                    const std::stop_token& stop = {});
 
 }  // namespace halfstep

@@ -1,4 +1,5 @@
 #include "experiments/run/experiment_run.h"
+#include "experiments/run/plan_json.h"
 
 #include <algorithm>
 #include <ctime>

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "experiments/run/certificate_query.h"
 #include "experiments/run/ground_steps.h"
@@ -11,7 +10,6 @@
 #include "experiments/run/level_crossings.h"
 #include "experiments/run/narrow_surfaces.h"
 #include "experiments/run/plan_inputs.h"
-#include "experiments/tables/not_covered_json.h"
 #include "planner/search/planners.h"
 #include "planner/swept/obstacle_places.h"
 #include "planner/swept/swept_volume_query.h"
@@ -278,61 +276,6 @@ PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
     PlanByVolumes(place, hooks, &walk);
   }
   return walk;
-}
-
-namespace {
-
-nlohmann::ordered_json PlacesJson(const PlannedWalk& walk) {
-  auto places = nlohmann::ordered_json::array();
-  for (const Footstep& footstep : walk.plan.footsteps) {
-    const Foothold& at = footstep.X_WF;
-    places.push_back(
-        {{"foot", Name(footstep.side)}, {"x_m", at.x}, {"y_m", at.y}, {"yaw_rad", at.yaw}});
-    if (walk.on_levels) places.back()["z_m"] = at.height;
-  }
-  return places;
-}
-
-}  // namespace
-
-std::string PlanJson(const PlannedWalk& walk) {
-  const PlanResult& plan = walk.plan;
-  const GoalConfig& goal = walk.config.goal;
-  const auto number = [](double x) {
-    return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json(nullptr);
-  };
-  nlohmann::ordered_json json = {
-      {"planner", walk.config.planner.name},
-      {"seed", walk.config.seed},
-      {"status", Name(plan.status)},
-      {"message", plan.sentence},
-      {"goal",
-       {{"part", goal.part},
-        {"x_m", goal.X_WG.x},
-        {"y_m", goal.X_WG.y},
-        {"yaw_rad", goal.X_WG.yaw},
-        {"radius_m", goal.radius},
-        {"box_m", goal.box},
-        {"yaw_tolerance_rad", goal.yaw_tolerance ? nlohmann::ordered_json(*goal.yaw_tolerance)
-                                                 : nlohmann::ordered_json(nullptr)}}},
-      {"cost_kind", walk.config.planner.cost},
-      {"cost", number(plan.cost)},
-      {"footsteps", plan.footsteps.size()},
-      {"places", PlacesJson(walk)},
-      {"elements", plan.elements},
-      {"nodes", plan.nodes},
-      {"queries", plan.queries},
-      {"effort", plan.effort() + walk.proof_effort},
-      {"refusals", plan.refusals},
-      {"half_steps", walk.half_steps.size},
-      {"baked", walk.half_steps.cached.baked},
-      {"time_to_first_s", number(plan.time_to_first)},
-      {"plan_wall_s", number(plan.time)},
-      {"set_wall_s", walk.half_steps.set_wall},
-      {"volumes_wall_s", walk.half_steps.wall},
-      {"not_covered", NotCoveredJson(walk.not_covered)}};
-  if (!walk.inputs.empty()) json["inputs"] = walk.inputs;
-  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace halfstep

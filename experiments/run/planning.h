@@ -39,7 +39,4 @@ struct PlannedWalk {
 PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
                      const PlanningHooks& hooks);
 
-/// Text of plan.json of a run folder.
-std::string PlanJson(const PlannedWalk& walk);
-
 }  // namespace halfstep

@@ -1,11 +1,10 @@
 // What swept volumes contain, by how much they are too large, and what that costs. Prints the
 // figures of planner/README.md, "Swept volumes". Not a test.
 //
-//   swept_volume_study contain N [ROBOT]   random points of the moving robot in their volumes
-//   swept_volume_study inflate K           distance of K surface points from the robot, over
-//   elements swept_volume_study refuse N            free half-steps refused, by resolution; N
-//   half-steps each swept_volume_study exact N             verdicts against all solid boxes one by
-//   one, in double
+//   contain N [ROBOT]  random points of the moving robot in their volumes
+//   inflate K          distance of K surface points from the robot, over elements
+//   refuse N           free half-steps refused, by resolution; N half-steps each
+//   exact N            verdicts against all solid boxes one by one, in double
 //
 // ROBOT: hrp2, or another one, or NAME-unequal or NAME-offset, whose legs differ
 // (tests/oracle/unequal_legs.h).

@@ -138,20 +138,46 @@ duration<double> MakeLongRun(const TemporaryFolder& place) {
   return steady_clock::now() - begin;
 }
 
-// Where in a run to interrupt it, until it was at the right moment.
-constexpr std::array kMoments = {0.7, 0.6, 0.8, 0.5, 0.9, 0.4, 0.75, 0.65, 0.55, 0.85, 0.45};
+// Looks by halves for a moment that is between too early and too late. On a machine whose load
+// changes the moment moves, so after some tries it is looked for anew, in twice the time.
+class Moment {
+ public:
+  explicit Moment(duration<double> whole) : whole_(whole), late_(whole) {}
+
+  duration<double> next() const { return 0.5 * (early_ + late_); }
+  void TooEarly() { Narrow(next(), late_); }
+  void TooLate() { Narrow(early_, next()); }
+
+ private:
+  void Narrow(duration<double> early, duration<double> late) {
+    constexpr int kTries = 8;
+    const bool anew = ++tries_ % kTries == 0;
+    early_ = anew ? duration<double>(0.0) : early;
+    late_ = anew ? 2.0 * whole_ : late;
+  }
+
+  duration<double> whole_, early_{0.0}, late_;
+  int tries_ = 0;
+};
+constexpr int kMostMoments = 40;
 
 TEST(InterruptedCertification, IsUndecidedAndTheRunIsWhole) {
   const TemporaryFolder place;
   const duration<double> whole = MakeLongRun(place);
   bool undecided = false;
-  for (size_t i = 0; i < kMoments.size() && !undecided; ++i) {
+  Moment moment(whole);
+  for (int i = 0; i < kMostMoments && !undecided; ++i) {
     const std::string name = "run" + std::to_string(i);
     Child child({"run", "c.yaml", "--out", name, "--quiet"}, {.working_directory = place.path()});
-    std::this_thread::sleep_for(kMoments[i] * whole);
+    std::this_thread::sleep_for(moment.next());
     child.Signal(SIGINT);
     const Outcome outcome = child.Wait();
-    if (outcome.status == kSuccess || outcome.signal != 0) continue;  // too late, too early
+    if (outcome.signal != 0) {
+      moment.TooEarly();
+      continue;
+    }
+    moment.TooLate();  // where it is not undecided below
+    if (outcome.status == kSuccess) continue;
     EXPECT_EQ(outcome.status, kInterrupted) << outcome.err;
     CheckRunIsWhole(place / name, {});
     const auto certificate = [&] {
@@ -174,12 +200,14 @@ TEST(InterruptedCertification, OfARunLeavesItAsItWas) {
   const duration<double> whole = MakeLongRun(place);
   const std::string older = "begin_s\n";
   int interrupted = 0;
-  for (size_t i = 0; i < kMoments.size() && interrupted == 0; ++i) {
+  Moment moment(whole);
+  for (int i = 0; i < kMostMoments && interrupted == 0; ++i) {
     WriteText(place / "whole/raw/certificate.csv", older);
     Child child({"certify", "whole"}, {.working_directory = place.path()});
-    std::this_thread::sleep_for(kMoments[i] * whole);
+    std::this_thread::sleep_for(moment.next());
     child.Signal(SIGINT);
     const Outcome outcome = child.Wait();
+    outcome.signal != 0 ? moment.TooEarly() : moment.TooLate();
     if (outcome.status != kInterrupted) continue;
     ++interrupted;
     EXPECT_EQ(outcome.err, "halfstep: interrupted; the run is as it was\n");

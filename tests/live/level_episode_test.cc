@@ -164,7 +164,7 @@ TEST(LevelEpisode, WhatItCannotProveIsRefused) {
                         "(valid: 0)"));
   OnLevels baked;
   baked.config.experiment.planner.free_by = "volumes";
-  EXPECT_THAT(RefusalOf([&] { WithFormFor(baked.place, baked.config.experiment); }),
+  EXPECT_THAT(RefusalOf([&] { FormFor(baked.place, baked.config.experiment); }),
               HasSubstr("planner.free_by: volumes know no ground"));
 }
 
@@ -173,11 +173,15 @@ TEST(LevelEpisode, TheFormOfHalfStepsIsFoundBeforeItBegins) {
   OnLevels world;
   ExperimentConfig config = world.config.experiment;
   config.half_step.via_height = 0.06;
-  const ExperimentConfig formed = WithFormFor(world.place, config);
+  const EpisodeForm formed = FormFor(world.place, config);
   EXPECT_GT(formed.half_step.via_height, 0.07);
+  EXPECT_EQ(formed.why_none, "");
   const SmallWorld& small = SmallWorld::Get();
-  EXPECT_EQ(WithFormFor(small.place, small.config.experiment).half_step.via_height,
+  EXPECT_EQ(FormFor(small.place, small.config.experiment).half_step.via_height,
             small.config.experiment.half_step.via_height);
+  config.goal.X_WG.x = 3.5;  // beyond all that bears
+  config.planner.max_nodes = 10;
+  EXPECT_THAT(FormFor(world.place, config).why_none, HasSubstr("no plan"));
 }
 
 }  // namespace
