@@ -175,7 +175,8 @@ CommandAction DeclarePlanning(CLI::App* app, const Toolbox& tools,
   const auto command = std::make_shared<PlanCommand>();
   command->tools = tools;
   const auto sets = std::make_shared<std::vector<std::string>>();
-  app->add_option("CONFIG", command->config, "experiment, a YAML file")->required();
+  app->add_option("CONFIG", command->config, "experiment, a YAML file or a shipped one's name")
+      ->required();
   DeclareOverrides(app, "the config", sets.get());
   app->add_flag("--quiet", command->quiet, "print nothing but errors");
   app->add_flag("--json", command->json, "print JSON");

@@ -87,7 +87,11 @@ fs::path RobotPath(const ExperimentConfig& config) {
 
 std::optional<fs::path> ScenePath(const ExperimentConfig& config) {
   if (config.scene == "none") return std::nullopt;
-  return (fs::path(config.directory) / config.scene).lexically_normal();
+  const fs::path path = (fs::path(config.directory) / config.scene).lexically_normal();
+  std::error_code ignored;
+  if (fs::exists(path, ignored)) return path;
+  const fs::path shipped = ShippedOr(config.scene, "scenes");
+  return shipped == config.scene ? path : shipped;
 }
 
 GivenWalkFiles GivenPaths(const ExperimentConfig& config) {

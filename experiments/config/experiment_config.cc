@@ -200,7 +200,8 @@ void DeclareFields(Fields& fields, ExperimentConfig* c) {
   // Whatever is wrong with the robot is told when it is loaded.
   if (!c->robot.empty() && !fields.Keys().empty()) ScaleDefaultsForRobot(fields.directory(), c);
   fields.Text("scene", &c->scene,
-              {.meaning = "path of a scene file, or `none`: an empty floor", .required = true});
+              {.meaning = "path of a scene file, a shipped scene's name, or `none`: an empty floor",
+               .required = true});
   DeclareStart(fields, c);
   DeclareWay(fields, c);
   fields.Group("planner", {.meaning = "of the way to the goal"},
@@ -238,9 +239,9 @@ void DeclareFilesThere(Fields& fields, const ExperimentConfig& config) {
   }
   const std::optional<std::filesystem::path> scene = ScenePath(config);
   if (scene && !std::filesystem::is_regular_file(*scene, ignored)) {
-    fields.Complain("scene", "no such file: " + Quote(scene->string()) + " (" +
-                                 NearestFile(*scene) +
-                                 "valid: `none`, or a path relative to this file)");
+    fields.Complain("scene",
+                    "no such file: " + Quote(scene->string()) + " (" + NearestFile(*scene) +
+                        "valid: `none`, a path relative to this file, or a shipped scene's name)");
   }
 }
 
@@ -256,7 +257,8 @@ std::vector<KeyDescription> ConfigKeys(Toolbox tools) {
 
 ExperimentConfig LoadConfig(const std::string& path, const std::vector<YamlOverride>& overrides,
                             Toolbox tools) {
-  return ParseConfig(path, ReadYamlFile(path), overrides, std::move(tools));
+  const std::string file = FileOrShipped(path, "configs").string();
+  return ParseConfig(file, ReadYamlFile(file), overrides, std::move(tools));
 }
 
 ExperimentConfig ParseConfig(const std::string& path, const std::string& text,
