@@ -34,7 +34,7 @@ struct FootstepConfig {
   LevelChoice on = {};               ///< the level
 };
 
-/// An experiment as its YAML file says it (top keys: experiments/README.md). Paths are as written.
+/// An experiment as its YAML file says it (top keys: experiments/config.md). Paths are as written.
 struct ExperimentConfig {
   std::string name;   ///< default: the file's stem
   std::string robot;  ///< a shipped robot's name or a path

@@ -40,7 +40,7 @@ struct MethodRun {
 bool HasHeights(const HalfStepSequence& sequence);
 /// Columns of footsteps.csv; those of a plan with a sole elsewhere than at z = 0 have its height.
 CsvColumns FootstepsColumns(bool with_heights);
-/// Each table of a run folder; columns: experiments/README.md.
+/// Each table of a run folder; columns: experiments/files.md.
 CsvFile FootstepsCsv(const HalfStepSequence& sequence);
 /// Columns of overlaps.csv.
 CsvColumns OverlapsColumns();
