@@ -17,10 +17,10 @@ class JointedRobot {
  public:
   /// A convex body of a link, in the link's frame; a mesh is its convex hull.
   struct Body {
-    std::string name;    ///< the link's, the second and further ones with #2, #3 …
-    int link = -1;       ///< index
-    ConvexBody shape;    ///< contains the collision shape
-    double reach = 0.0;  ///< no point of it is farther from the link's origin [m]
+    std::string name;       ///< the link's, the second and further ones with #2, #3 …
+    int link = -1;          ///< index
+    ConvexBody shape = {};  ///< contains the collision shape
+    double reach = 0.0;     ///< no point of it is farther from the link's origin [m]
   };
   /// A joint between two bodies, and how far points of the first may be from its origin.
   struct Lever {

@@ -45,8 +45,8 @@ checker::JointNames NamesOf(const UrdfTree& urdf) {
 }
 
 // Sentences on what is not in the statements.
-std::vector<std::string> NotCovered(const checker::Trajectory& trajectory, const UrdfTree& urdf,
-                                    bool has_scene) {
+std::vector<std::string> NotLookedAt(const checker::Trajectory& trajectory, const UrdfTree& urdf,
+                                     bool has_scene) {
   std::vector<std::string> told;
   std::vector<std::string> still;
   for (const UrdfJoint& joint : urdf.joints) {
@@ -86,7 +86,7 @@ ExitStatus CheckMotion(const CheckCommand& command) {
         return !interrupt.token().stop_requested();
       });
   bar.reset();
-  const std::vector<std::string> told = NotCovered(trajectory, urdf, !command.scene.empty());
+  const std::vector<std::string> told = NotLookedAt(trajectory, urdf, !command.scene.empty());
   check.not_covered.insert(check.not_covered.end(), told.begin(), told.end());
   if (command.json) {
     std::cout << checker::CheckJson(trajectory, check);
