@@ -285,7 +285,8 @@ def shares(mutants, outcomes):
             counts[key][0] += 1
             counts[key][1] += outcomes[m].noticed
             counts[key][2] += not outcomes[m].noticed and bool(m.why)
-    lines = ["| folder | mutants | noticed | share | survivors explained |", "|---|---|---|---|---|"]
+    lines = ["| folder | mutants | noticed | share | survivors explained |",
+             "|---|---|---|---|---|"]
     for folder in sorted(counts, key=lambda f: (f == "all", f)):
         count, noticed, explained = counts[folder]
         lines.append(f"| {folder} | {count} | {noticed} | {100 * noticed / count:.1f} % | "
