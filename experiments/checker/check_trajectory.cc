@@ -19,6 +19,7 @@ using Kind = TrajectoryFinding::Kind;
 constexpr double kFinest = 1e-6;  // intervals are not halved below this [s]
 // A value that is as demanded but for its rounding is not worth more halving.
 constexpr double kMissed = 1e-9;
+constexpr double kSmooth = 1e-9;  // jumps of a velocity that are told as none [rad/s]
 
 // What is known of a margin on an interval of time.
 struct Part {
@@ -265,7 +266,7 @@ void AddJoints(const Trajectory& trajectory, const JointedRobot& robot, const Mo
                             .proved = true,
                             .least = *demands.acceleration};
     for (int k = 1; k + 1 < std::ssize(curves.times()); ++k) {
-      if (curves.Jump(curve, k) == Interval(0.0)) continue;
+      if (curves.Jump(curve, k).Magnitude() < kSmooth) continue;
       jumps.proved = false;
       jumps.least = -std::numeric_limits<double>::infinity();
       jumps.at = Nth(curves.times(), k);

@@ -14,9 +14,9 @@ namespace halfstep::checker {
 
 /// What is asked of a trajectory.
 struct TrajectoryDemands {
-  double self_clearance = 0.0;         ///< between bodies of the robot [m] ≥ 0
-  double clearance = 0.0;              ///< from obstacles [m] ≥ 0
-  std::optional<double> acceleration;  ///< of every joint, at most [rad/s²]; none: not asked
+  double self_clearance = 0.0;              ///< between bodies of the robot [m] ≥ 0
+  double clearance = 0.0;                   ///< from obstacles [m] ≥ 0
+  std::optional<double> acceleration = {};  ///< of every joint, at most [rad/s²]; none: not asked
   /// Pairs of links of which nothing is asked, beside neighbours.
   std::vector<std::pair<std::string, std::string>> ignored = {};
 };

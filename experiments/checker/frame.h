@@ -60,6 +60,8 @@ inline Frame TurnAbout(const Eigen::Vector3d& axis, const Interval& angle) {
   for (size_t i = 0; i < 3; ++i) {
     for (size_t k = 0; k < 3; ++k) turn.R[i][k] = rest * a[i] * a[k];
     turn.R[i][i] = turn.R[i][i] + c;
+  }
+  for (size_t i = 0; i < 3; ++i) {
     const size_t k = (i + 1) % 3, l = (i + 2) % 3;
     turn.R[i][k] = turn.R[i][k] - s * a[l];
     turn.R[k][i] = turn.R[k][i] + s * a[l];

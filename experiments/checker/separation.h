@@ -13,8 +13,8 @@ struct SeparationHint {
   double distance = 0.0;               ///< [m]
   Eigen::Vector3d direction{0, 0, 1};  ///< in W
 };
-/// By the point of the Minkowski difference b ⊖ a that is nearest to the origin [Gilbert1988]. Nothing
-/// rests on it: what is claimed is tested by GapAlong.
+/// By the point of the Minkowski difference b ⊖ a that is nearest to the origin [Gilbert1988].
+/// Nothing rests on it: what is claimed is tested by GapAlong.
 SeparationHint HintOf(const ConvexBody& a, const Eigen::Isometry3d& X_WA, const ConvexBody& b,
                       const Eigen::Isometry3d& X_WB);
 

@@ -200,7 +200,9 @@ TEST(CheckTrajectory, WhatIsProvedIsKeptAtEveryInstant) {
                                 MakeSphere(0.1), scene.obstacles[0].X_WO)
                              .distance);
       }
-      if (is_proved) EXPECT_GT(least, 0.02 - 1e-9);
+      if (is_proved) {
+        EXPECT_GT(least, 0.02 - 1e-9);
+      }
       ++(is_proved ? proved : refused);
       if (!is_proved && least > 0.0201) ++kept_and_refused;
     }
