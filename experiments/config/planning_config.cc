@@ -131,6 +131,12 @@ void DeclarePlanner(Fields& fields, PlannerConfig* c) {
                .choices = {"volumes", "certificates"},
                .otherwise = "certificates on levels where nothing moves, else volumes",
                .left_out_empty = true});
+  fields.Text("moving", &c->moving,
+              {.meaning = "where obstacles that move count: where they are at the time, or "
+                          "everywhere that they ever are",
+               .choices = {"in_time", "everywhere"},
+               .otherwise = "in_time where the planner can",
+               .left_out_empty = true});
   fields.Integer("max_nodes", &c->max_nodes,
                  {.meaning = "the search ends after them", .min = 0, .max = 1000000000});
   fields.Integer("unimproved_nodes", &c->unimproved_nodes,
