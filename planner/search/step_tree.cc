@@ -1,6 +1,7 @@
 #include "planner/search/step_tree.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "wpg/elementary.h"
@@ -92,6 +93,10 @@ StepTree::Edge StepTree::TryInTime(int index, int k, const Foothold& X_WF) {
   const TimedState from = {Nth(nodes_, index).state, Nth(nodes_, index).edge.to.since,
                            Nth(nodes_, index).edge.to.rest};
   const bool hits = Hits(from.state, X_WF);
+  const StepState after{X_WF, Opposite(from.state.support)};
+  const double least =
+      Nth(nodes_, index).cost + graph_.cost(k) + (hits ? 0.0 : LeastCostFrom(after));
+  if (least >= target_.cost_limit) return Edge::kUseless;
   if (hits && !target_.state) {
     const auto edge = edges_->Land(from, k);
     if (!edge) return Edge::kBlocked;
@@ -100,7 +105,11 @@ StepTree::Edge StepTree::TryInTime(int index, int k, const Foothold& X_WF) {
     Arrive(index, k, cost, *edge);
     return Edge::kArrived;
   }
-  if (!hits && !graph_.workspace().contains(X_WF.Planar().position())) return Edge::kUseless;
+  // Of a state that may be kept for good, the cell's own key is reached as well.
+  if (!hits && (!graph_.workspace().contains(X_WF.Planar().position()) ||
+                reached_.contains(cells_.KeyOf(after)))) {
+    return Edge::kUseless;
+  }
   const std::vector<TimedEdge> edges = edges_->Take(from, k);
   Edge grown = edges.empty() ? Edge::kBlocked : Edge::kUseless;
   for (const TimedEdge& edge : edges) {
@@ -131,6 +140,7 @@ StepTree::Growth StepTree::AddRoot(const TimedState& root) {
 StepTree::Growth StepTree::Add(const StepState& state, int parent, int k, double cost,
                                const TimedEdge& edge) {
   if (!reached_.insert(KeyOf(state, edge)).second) return Growth::kTrapped;
+  if (std::isinf(edge.to.rest.end)) reached_.insert(cells_.KeyOf(state));
   const auto count = static_cast<size_t>(graph_.size());
   const int index = static_cast<int>(nodes_.size());
   nodes_.push_back({state, parent, k, cost, graph_.size(), std::vector<bool>(count, false), edge});

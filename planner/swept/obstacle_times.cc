@@ -13,8 +13,8 @@
 namespace halfstep {
 namespace {
 
-constexpr double kShortestStarts = 1.0 / 64;  // [s] start times are not cut below this
-constexpr int kFinestPiece = 64;              // the first of those that are not cut
+constexpr double kShortestStarts = 1.0 / 16;  // [s] start times are not cut below this
+constexpr int kFinestPiece = 32;              // the first of those that are not cut
 constexpr double kClearanceRounding = 1e-9;   // [m]
 // Of pieces that are made and of bodies that are looked at, as PlanProgress::effort [µs].
 constexpr double kPieceCost = 15.0, kCheckCost = 0.3;
@@ -25,6 +25,26 @@ double SettlesAt(const Obstacle& obstacle) {
   const double arrives = motion.waypoints.empty() ? 0.0 : motion.waypoints.back().t;
   const double known = motion.speed == 0.0 ? 0.0 : motion.measured_at + motion.horizon;
   return std::max({0.0, arrives, known});
+}
+
+// When an obstacle begins or ceases to move, or to be known less well, in any order [s].
+std::vector<double> ChangesOf(const ObstacleMotion& motion) {
+  std::vector<double> changes;
+  for (const ObstacleMotion::Waypoint& waypoint : motion.waypoints) changes.push_back(waypoint.t);
+  if (motion.speed > 0.0) {
+    for (const double since : {-motion.horizon, 0.0, motion.horizon}) {
+      changes.push_back(motion.measured_at + since);
+    }
+  }
+  return changes;
+}
+
+// Whether pose and uncertainty are the same from one change to the next.
+bool RestsBetween(const Obstacle& obstacle, double begin, double end) {
+  const double mid = 0.5 * (begin + end);
+  return obstacle.motion.UncertaintyRateAt(mid) == 0.0 &&
+         obstacle.PoseAt(begin).isApprox(obstacle.PoseAt(mid), 0.0) &&
+         obstacle.PoseAt(mid).isApprox(obstacle.PoseAt(end), 0.0);
 }
 
 // Only what moves, on no ground.
@@ -77,6 +97,21 @@ ObstacleTimes::ObstacleTimes(const RobotModel& robot, std::shared_ptr<const Moti
   }
   settles_ = settled_ <= latest;
   settled_ = std::min(settled_, latest);
+  std::vector<double> changes = {0.0, settled_};
+  for (const Obstacle& obstacle : scene.obstacles) {
+    if (obstacle.rests()) continue;
+    for (const double t : ChangesOf(obstacle.motion)) {
+      if (t > 0.0 && t < settled_) changes.push_back(t);
+    }
+  }
+  std::ranges::sort(changes);
+  for (size_t i = 0; i + 1 < changes.size(); ++i) {
+    if (changes[i] == changes[i + 1]) continue;
+    const bool rests = std::ranges::all_of(scene.obstacles, [&](const Obstacle& obstacle) {
+      return obstacle.rests() || RestsBetween(obstacle, changes[i], changes[i + 1]);
+    });
+    if (rests) still_.push_back({changes[i], changes[i + 1]});
+  }
 }
 
 TimeIntervals ObstacleTimes::DownStarts(int i, Side support, const Foothold& X_WS,
@@ -128,7 +163,18 @@ TimeIntervals ObstacleTimes::Answer(What what, int i, Side support, const Footho
   TimeIntervals& free = answer->second;
   Cover& cover = CoverOf(what, i, support, rise);
   const Eigen::Isometry3d pose = ToIsometry(X_WS);
-  if (settled_ > 0.0) Collect(cover, pose, 0.0, settled_, &free);
+  double begin = 0.0;
+  for (const TimeInterval& still : still_) {
+    const double lasts = cover.to - cover.from, end = still.end - lasts;
+    if (end <= still.begin) continue;
+    if (begin < still.begin) Collect(cover, pose, begin, still.begin, &free);
+    // One question for all of it.
+    if (IsFree(cover, {.X_WS = pose, .mid = still.begin, .settled = true})) {
+      AddInterval(still.begin, end, &free);
+    }
+    begin = end;
+  }
+  if (begin < settled_) Collect(cover, pose, begin, settled_, &free);
   if (settles_ && IsFree(cover, {.X_WS = pose, .mid = settled_, .settled = true})) {
     AddInterval(settled_, std::numeric_limits<double>::infinity(), &free);
   }

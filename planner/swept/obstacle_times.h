@@ -24,7 +24,7 @@ namespace halfstep {
 /// times is told only when a bound holds for all of it: each body is where it is in the middle of a
 /// piece of the half-step, or no farther from there than its motion allows; each obstacle is where
 /// it is in the middle of the times that are meant, or no farther than its speed allows. Where that
-/// does not decide, both are halved, down to 1/64 of T and 1/64 s; what is undecided then is told
+/// does not decide, both are halved, down to 1/32 of T and 1/16 s; what is undecided then is told
 /// as not free. Source: planner/README.md, "Planning in time".
 class ObstacleTimes : public HalfStepTimes {
  public:
@@ -66,7 +66,7 @@ class ObstacleTimes : public HalfStepTimes {
   struct Starts {
     Eigen::Isometry3d X_WS;
     double mid = 0.0, half = 0.0;
-    bool settled = false;  // or any time after nothing moves any more
+    bool settled = false;  // nothing moves at `mid` and then, as long as it is asked about
   };
   using Question = std::array<double, 8>;
   using CoverKey = std::array<double, 4>;
@@ -90,6 +90,7 @@ class ObstacleTimes : public HalfStepTimes {
   double clearance_;
   double settled_ = 0.0;
   bool settles_ = true;
+  TimeIntervals still_;  // when nothing moves, before settled_
   mutable std::mutex mutex_;
   mutable std::vector<CollisionWorld::Scratch> scratch_;  // by body
   mutable std::map<CoverKey, Cover> covers_;
