@@ -126,11 +126,12 @@ void DeclarePlanner(Fields& fields, PlannerConfig* c) {
                .listed_by = "halfstep list planners"});
   fields.Text("cost", &c->cost,
               {.meaning = "of a plan; the last is an estimate", .choices = NamesOf(kCosts)});
-  fields.Text("free_by", &c->free_by,
-              {.meaning = "what says that a half-step is free: baked volumes, or its proof",
-               .choices = {"volumes", "certificates"},
-               .otherwise = "certificates on levels where nothing moves, else volumes",
-               .left_out_empty = true});
+  fields.Text(
+      "free_by", &c->free_by,
+      {.meaning = "what says that a half-step is free: baked volumes, or its proof",
+       .choices = {"volumes", "certificates"},
+       .otherwise = "certificates on levels where nothing moves or planned in time, else volumes",
+       .left_out_empty = true});
   fields.Text("moving", &c->moving,
               {.meaning = "where obstacles that move count: where they are at the time, or "
                           "everywhere that they ever are",
