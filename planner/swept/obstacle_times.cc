@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kShortestStarts = 1.0 / 16;  // [s] start times are not cut below this
 constexpr int kFinestPiece = 32;              // the first of those that are not cut
+constexpr int kFinestUnbounded = 1 << 14;     // the same where the motion has no bound yet
 constexpr double kClearanceRounding = 1e-9;   // [m]
 // Of pieces that are made and of bodies that are looked at, as PlanProgress::effort [µs].
 constexpr double kPieceCost = 15.0, kCheckCost = 0.3;
@@ -259,9 +260,14 @@ bool ObstacleTimes::IsFree(Cover& cover, int n, const std::vector<size_t>& bodie
     }
   }
   if (left.empty()) return true;
-  // Where the start times are much longer than the piece, they have to be cut first.
-  const bool short_enough = !starts.settled && piece.half <= 0.25 * starts.half;
-  if (n >= kFinestPiece || cover.from == cover.to || short_enough) return false;
+  if (cover.from == cover.to) return false;
+  if (piece.bounded) {
+    // Where the start times are much longer than the piece, they have to be cut first.
+    const bool short_enough = !starts.settled && piece.half <= 0.25 * starts.half;
+    if (n >= kFinestPiece || short_enough) return false;
+  } else if (n >= kFinestUnbounded) {
+    return false;
+  }
   return IsFree(cover, 2 * n, left, starts) && IsFree(cover, 2 * n + 1, left, starts);
 }
 

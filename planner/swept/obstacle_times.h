@@ -24,8 +24,9 @@ namespace halfstep {
 /// times is told only when a bound holds for all of it: each body is where it is in the middle of a
 /// piece of the half-step, or no farther from there than its motion allows; each obstacle is where
 /// it is in the middle of the times that are meant, or no farther than its speed allows. Where that
-/// does not decide, both are halved, down to 1/32 of T and 1/16 s; what is undecided then is told
-/// as not free. Source: planner/README.md, "Planning in time".
+/// does not decide, both are halved, down to 1/32 of T (less where the motion has no bound) and
+/// 1/16 s; what is undecided then is told as not free. Source: planner/README.md, "Planning in
+/// time".
 class ObstacleTimes : public HalfStepTimes {
  public:
   /// `robot`, `set` and `always` are borrowed and must outlive this. Bodies keep `clearance` ≥ 0
