@@ -76,6 +76,8 @@ void PrintPlan(const PlannedWalk& walk) {
       f.Number("y_m", &step->X_WF.y, {});
       f.Number("yaw_deg", &step->X_WF.yaw, {});
       if (walk.on_levels) f.OptionalNumber("z_m", &step->on.z, {});
+      f.OptionalNumber("rest_s", &step->rest, {.none_left_out = true});
+      f.OptionalNumber("rest_on_one_foot_s", &step->rest_on_one_foot, {.none_left_out = true});
     });
   });
 }
