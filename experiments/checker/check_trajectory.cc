@@ -21,6 +21,12 @@ constexpr double kFinest = 1e-6;  // intervals are not halved below this [s]
 constexpr double kMissed = 1e-9;
 constexpr double kSmooth = 1e-9;  // jumps of a velocity that are told as none [rad/s]
 
+// A lower bound of x − limit, which is not below 0 where x is not below the limit.
+double Beyond(double x, double limit) {
+  const double margin = Below(x - limit);
+  return x >= limit ? std::max(0.0, margin) : margin;
+}
+
 // What is known of a margin on an interval of time.
 struct Part {
   double from = 0.0, to = 0.0;
@@ -245,11 +251,11 @@ void AddJoints(const Trajectory& trajectory, const JointedRobot& robot, const Mo
       check->not_covered.push_back(joint.name + ": turns freely, so that no limit is asked for");
     } else {
       add(Kind::kLimits, 0, [&](const Interval& q) {
-        return std::min((q - joint.lower).lo, (Interval(joint.upper) - q).lo);
+        return std::min(Beyond(q.lo, joint.lower), Beyond(joint.upper, q.hi));
       });
     }
     const auto below = [](double most) {
-      return [most](const Interval& x) { return Below(most - x.Magnitude()); };
+      return [most](const Interval& x) { return Beyond(most, x.Magnitude()); };
     };
     if (joint.max_speed > 0.0) {
       add(Kind::kSpeed, 1, below(joint.max_speed));

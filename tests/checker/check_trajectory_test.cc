@@ -131,7 +131,7 @@ TEST(CheckTrajectory, ProvesWhatIsKeptAndNoMore) {
   for (const auto& [asked, proved] : {std::pair{0.109999, true}, {0.110001, false}}) {
     const TrajectoryCheck check = CheckTrajectory(swing, Arm(), above, {.clearance = asked});
     EXPECT_EQ(Of(check, Kind::kClearance, "hand - ball").proved, proved) << asked;
-    EXPECT_LT(check.intervals, 2000);
+    EXPECT_LT(check.intervals, 4000);
   }
 }
 
@@ -161,19 +161,22 @@ TEST(CheckTrajectory, LinearPiecesHaveSpeedsAndNoAccelerations) {
   EXPECT_TRUE(Of(check, Kind::kAcceleration, "wrist").proved);
 }
 
-TEST(CheckTrajectory, TheHandMayTouchTheUpperArm) {
-  const Trajectory fold = ArmTrajectory({{0, 0, 0, 0}, {1, 0, 2.5, 1.5}});
-  const TrajectoryCheck check = CheckTrajectory(fold, Arm(), {}, {});
+// The elbow ends at its limit to the bit, and the hand 22 mm from the upper arm.
+TEST(CheckTrajectory, TheHandMayComeNearTheUpperArm) {
+  const Trajectory fold = ArmTrajectory({{0, 0, 0, 0}, {1, 0, 2.5, 2.4}});
+  EXPECT_TRUE(CheckTrajectory(fold, Arm(), {}, {.self_clearance = 0.021}).proved());
+  const TrajectoryCheck check = CheckTrajectory(fold, Arm(), {}, {.self_clearance = 0.03});
   EXPECT_FALSE(Of(check, Kind::kSelfClearance, "upper - hand").proved);
-  const TrajectoryCheck without = CheckTrajectory(
-      fold, Arm(), {}, {.ignored = {{"hand", "upper"}, {"base", "hand"}, {"base", "fore"}}});
+  EXPECT_NEAR(Of(check, Kind::kSelfClearance, "upper - hand").at, 1.0, 0.05);
+  const TrajectoryCheck without =
+      CheckTrajectory(fold, Arm(), {}, {.self_clearance = 0.03, .ignored = {{"hand", "upper"}}});
   EXPECT_TRUE(without.proved());
 }
 
 // Nothing that is proved is violated at any of many instants; and most of what keeps it is proved.
 TEST(CheckTrajectory, WhatIsProvedIsKeptAtEveryInstant) {
   std::mt19937_64 random(5);
-  std::uniform_real_distribution<double> angle(-1.2, 1.2), place(-0.9, 0.9);
+  std::uniform_real_distribution<double> angle(-1.2, 1.2), place(-0.5, 0.5);
   const JointedRobot arm = Arm();
   int proved = 0, refused = 0, kept_and_refused = 0;
   for (int i = 0; i < 60; ++i) {
@@ -184,7 +187,7 @@ TEST(CheckTrajectory, WhatIsProvedIsKeptAtEveryInstant) {
       drawn.interpolation = Interpolation::kCubic;
       drawn.v = 0.5 * drawn.q;
     }
-    const Scene scene = WithBall({place(random), place(random), place(random)}, 0.1);
+    const Scene scene = WithBall({0.3 + place(random), place(random), 0.3 * place(random)}, 0.2);
     const TrajectoryCheck check = CheckTrajectory(drawn, arm, scene, {.clearance = 0.02});
     const Curves curves(drawn);
     for (const JointedRobot::Body& body : arm.bodies()) {
@@ -197,7 +200,7 @@ TEST(CheckTrajectory, WhatIsProvedIsKeptAtEveryInstant) {
         for (int j = 0; j < 3; ++j) q[static_cast<size_t>(j)] = curves.Range(j, 0, t, t).Middle();
         least = std::min(least,
                          HintOf(body.shape, arm.urdf().LinkPoses(q)[static_cast<size_t>(body.link)],
-                                MakeSphere(0.1), scene.obstacles[0].X_WO)
+                                MakeSphere(0.2), scene.obstacles[0].X_WO)
                              .distance);
       }
       if (is_proved) {
