@@ -3,7 +3,7 @@
 
 By seeds 1 to COUNT: carts that cross the way, a door that opens, a gap that closes. HRP-2 plans
 among them in time, with obstacles everywhere that they ever are, and after all have come to rest
-(`waiting_s`: when they rest, and the raw walk from then on; whether it is touched while it waits is
+(`at_rest`: when they rest, and the raw walk from then on; whether it is touched while it waits is
 not looked at). The first RUNS (all) solved ones are smoothed by dichotomy, certified and verified.
 Folders stay in FOLDER. Exit status 1 when a run is not certified or not verified.
 """
@@ -15,7 +15,7 @@ import subprocess
 import sys
 
 COLUMNS = ["seed", "kind", "status", "footsteps", "rest_s", "raw_s", "effort", "everywhere",
-           "waiting_s", "smoothed_s", "certified", "verified"]
+           "at_rest", "smoothed", "certified", "verified"]
 KINDS = ["carts", "door", "gap"]
 HALF_STEP_S = 2.0
 
