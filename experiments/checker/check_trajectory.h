@@ -23,6 +23,7 @@ struct TrajectoryDemands {
 
 /// A statement about one subject: for all t ∈ [0, end], or not.
 struct TrajectoryFinding {
+  /// What statements are about.
   enum class Kind { kLimits, kSpeed, kAcceleration, kSelfClearance, kClearance };
   Kind kind = Kind::kLimits;  ///< what it is about
   std::string subject;        ///< "elbow", "forearm - shelf"

@@ -16,6 +16,7 @@ namespace halfstep::checker {
 /// subdivision. The bounds of linear pieces are the knots themselves, without rounding.
 class Curves {
  public:
+  /// Of all joints of a trajectory.
   explicit Curves(const Trajectory& trajectory);
 
   int joints() const { return static_cast<int>(pieces_.size()); }  ///< how many

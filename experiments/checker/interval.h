@@ -17,10 +17,13 @@ inline double Above(double x) { return x + (std::abs(x) * 0x1p-52 + 0x1p-1074); 
 /// result lies in the result: sums, products and roots of doubles are correctly rounded, and each
 /// bound is moved outwards by more than that. Trusted: IEEE 754 arithmetic, rounding to nearest.
 struct Interval {
-  double lo = 0.0, hi = 0.0;
+  double lo = 0.0;  ///< no number of it is less
+  double hi = 0.0;  ///< nor more
 
   Interval() = default;
+  /// One number.
   Interval(double x) : lo(x), hi(x) {}  // NOLINT: a double is a number
+  /// All from `lower` to `upper`.
   Interval(double lower, double upper) : lo(lower), hi(upper) {}
 
   /// A number of it.

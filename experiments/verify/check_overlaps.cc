@@ -205,7 +205,7 @@ void CheckFixed(const std::vector<HalfStepRow>& half_steps, const std::vector<Ov
     double is = 0, demanded = 0;
     if (one.parameter == "overlap" && i < overlaps.size()) {
       is = overlaps[i].overlap;
-      demanded = -planned.half_steps[i + 1].rest;
+      demanded = 0.0 - planned.half_steps[i + 1].rest;
     } else if (one.parameter == "duration" && i < half_steps.size()) {
       is = half_steps[i].duration;
       demanded = planned.half_steps[i].half_step.duration;

@@ -14,14 +14,15 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-// A cart that has crossed the way by `gone` [s], as wide as the way.
-std::string CrossingCart(double gone) {
+// A cart across the way that stays until `leaves` [s], and is gone a second later.
+std::string WaitingCart(double leaves) {
+  const std::string time = std::to_string(leaves), gone = std::to_string(leaves + 1.0);
   return "obstacles:\n"
          "  - name: cart\n"
          "    box: {size_m: [0.3, 2.0, 0.8]}\n"
          "    pose: {xyz: [0.6, 0, 0.4]}\n"
          "    motion: {error_m: 0.01, waypoints: [{t_s: " +
-         std::to_string(gone) + ", xyz: [0.6, 4, 0.4]}]}\n";
+         time + ", xyz: [0.6, 0, 0.4]}, {t_s: " + gone + ", xyz: [0.6, 4, 0.4]}]}\n";
 }
 
 // Two half-steps on coarse cells: baked in a moment.
@@ -35,10 +36,10 @@ std::string ConfigText(const std::string& more = "") {
          more + "}\nsmoothing: {methods: [dichotomy]}\n";
 }
 
-TEST(PlanInTime, BehindACartThatIsGoneCertifiedVerifiedAndNotWhenItComesASecondLater) {
+TEST(PlanInTime, BehindACartThatIsGoneCertifiedVerifiedAndNotWhenItStaysLonger) {
   const TemporaryFolder place;
-  WriteText(place / "scene.yaml", CrossingCart(9.0));
-  WriteText(place / "later.yaml", CrossingCart(10.0));
+  WriteText(place / "scene.yaml", WaitingCart(12.0));
+  WriteText(place / "later.yaml", WaitingCart(16.0));
   const std::string config = WriteText(place / "walk.yaml", ConfigText());
   const Outcome everywhere =
       Halfstep(place.path(), {"plan", config, "--set", "planner.moving=everywhere"});
@@ -61,7 +62,7 @@ TEST(PlanInTime, BehindACartThatIsGoneCertifiedVerifiedAndNotWhenItComesASecondL
   for (const char* file : {"footsteps.csv", "raw/trajectory.csv", "dichotomy/trajectory.csv"}) {
     EXPECT_EQ(ReadText(place / "run" / file), ReadText(place / "again" / file)) << file;
   }
-  // Control: what was planned behind the cart meets one that is a second late.
+  // Control: what was planned behind the cart meets one that stays four seconds longer.
   const Outcome late = Halfstep(
       place.path(), {"run", again, "--quiet", "--out", "late", "--set", "scene=../later.yaml"});
   EXPECT_EQ(late.status, kFailed);
@@ -80,7 +81,7 @@ TEST(PlanInTime, WithoutAnythingThatMovesTablesAndPlansHaveNoRests) {
 
 TEST(PlanInTime, SaysWhatCannotPlanInTime) {
   const TemporaryFolder place;
-  WriteText(place / "scene.yaml", CrossingCart(9.0));
+  WriteText(place / "scene.yaml", WaitingCart(12.0));
   const std::string config = WriteText(place / "walk.yaml", ConfigText(", moving: in_time"));
   const auto refusal = [&](const std::string& set) {
     const Outcome outcome = Halfstep(place.path(), {"plan", config, "--set", set});
@@ -88,7 +89,7 @@ TEST(PlanInTime, SaysWhatCannotPlanInTime) {
     return outcome.err;
   };
   EXPECT_THAT(refusal("planner.name=bounding_box"),
-              HasSubstr("planner.moving: \"bounding_box\" does not know when obstacles are where "
+              HasSubstr("planner.moving: 'bounding_box' does not know when obstacles are where "
                         "(valid: everywhere, or `planner.name: astar`)"));
   EXPECT_THAT(refusal("planner.cost=smoothed_duration"), HasSubstr("planner.cost: "));
   WriteText(place / "first.yaml",
