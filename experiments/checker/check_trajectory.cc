@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <queue>
 
 #include "experiments/checker/curves.h"
+#include "experiments/checker/interval_proof.h"
 #include "experiments/checker/separation.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/text.h"
@@ -16,60 +16,7 @@ namespace halfstep::checker {
 namespace {
 
 using Kind = TrajectoryFinding::Kind;
-constexpr double kFinest = 1e-6;  // intervals are not halved below this [s]
-// A value that is as demanded but for its rounding is not worth more halving.
-constexpr double kMissed = 1e-9;
 constexpr double kSmooth = 1e-9;  // jumps of a velocity that are told as none [rad/s]
-
-// A lower bound of x − limit, which is not below 0 where x is not below the limit.
-double Beyond(double x, double limit) {
-  const double margin = Below(x - limit);
-  return x >= limit ? std::max(0.0, margin) : margin;
-}
-
-// What is known of a margin on an interval of time.
-struct Part {
-  double from = 0.0, to = 0.0;
-  double bound = 0.0;  // the margin is at least that, for all t of it
-  double value = 0.0;  // and about that in the middle
-
-  double middle() const { return 0.5 * from + 0.5 * to; }
-  bool operator<(const Part& other) const { return bound > other.bound; }  // the least on top
-};
-
-struct Proof {
-  bool proved = false;
-  double least = 0.0, at = 0.0;
-  std::int64_t intervals = 0;
-};
-
-// Whether a margin is at least `demanded` on [begin, end]: the part with the least bound is halved.
-template <typename Look>
-Proof Prove(double begin, double end, double demanded, const Look& look) {
-  Proof proof;
-  std::priority_queue<Part> parts;
-  const auto add = [&](double from, double to) {
-    parts.push(look(from, to));
-    ++proof.intervals;
-  };
-  add(begin, end);
-  while (true) {
-    const Part part = parts.top();
-    proof.least = part.bound;
-    proof.at = part.middle();
-    if (part.bound >= demanded) {
-      proof.proved = true;
-      return proof;
-    }
-    if (part.value < demanded - kMissed || part.to - part.from < kFinest) {
-      proof.least = part.value;
-      return proof;
-    }
-    parts.pop();
-    add(part.from, part.middle());
-    add(part.middle(), part.to);
-  }
-}
 
 // A robot's joints and frames along a trajectory.
 class Motion {
@@ -219,6 +166,25 @@ std::vector<Pair> SelfPairs(const JointedRobot& robot, const TrajectoryDemands& 
   return pairs;
 }
 
+// `value(t)` is about what is kept at t.
+void AddFinding(Kind kind, const std::string& subject, double demanded, const Proof& proof,
+                const std::vector<double>& knots, const std::function<double(double t)>& value,
+                TrajectoryCheck* check) {
+  check->intervals += proof.intervals;
+  TrajectoryFinding finding{.kind = kind,
+                            .subject = subject,
+                            .proved = proof.proved,
+                            .demanded = demanded,
+                            .least = proof.least,
+                            .at = proof.at};
+  if (!proof.proved) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const double t : knots) least = std::min(least, value(t));
+    finding.at_knots = least;
+  }
+  check->findings.push_back(finding);
+}
+
 void AddJoints(const Trajectory& trajectory, const JointedRobot& robot, const Motion& motion,
                const TrajectoryDemands& demands, TrajectoryCheck* check) {
   const Curves& curves = motion.curves();
@@ -234,18 +200,7 @@ void AddJoints(const Trajectory& trajectory, const JointedRobot& robot, const Mo
         part.value = value(part.middle());
         return part;
       });
-      check->intervals += proof.intervals;
-      TrajectoryFinding finding{.kind = kind,
-                                .subject = joint.name,
-                                .proved = proof.proved,
-                                .least = proof.least,
-                                .at = proof.at};
-      if (!proof.proved) {
-        double least = std::numeric_limits<double>::infinity();
-        for (const double t : curves.times()) least = std::min(least, value(t));
-        finding.at_knots = least;
-      }
-      check->findings.push_back(finding);
+      AddFinding(kind, joint.name, 0.0, proof, curves.times(), value, check);
     };
     if (joint.turns_freely) {
       check->not_covered.push_back(joint.name + ": turns freely, so that no limit is asked for");
@@ -334,19 +289,9 @@ TrajectoryCheck CheckTrajectory(const Trajectory& trajectory, const JointedRobot
     const double demanded =
         pair.kind == Kind::kClearance ? demands.clearance : demands.self_clearance;
     const Proof proof = Prove(motion.curves().begin(), motion.curves().end(), demanded, look);
-    check.intervals += proof.intervals;
-    TrajectoryFinding finding{.kind = pair.kind,
-                              .subject = pair.subject,
-                              .proved = proof.proved,
-                              .demanded = demanded,
-                              .least = proof.least,
-                              .at = proof.at};
-    if (!proof.proved) {
-      double least = std::numeric_limits<double>::infinity();
-      for (const double t : motion.curves().times()) least = std::min(least, look.About(t));
-      finding.at_knots = least;
-    }
-    check.findings.push_back(finding);
+    AddFinding(
+        pair.kind, pair.subject, demanded, proof, motion.curves().times(),
+        [&look](double t) { return look.About(t); }, &check);
   }
   std::ranges::stable_sort(check.findings, [](const auto& x, const auto& y) {
     if (x.kind != y.kind) return x.kind < y.kind;

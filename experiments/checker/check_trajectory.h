@@ -49,10 +49,9 @@ struct TrajectoryCheck {
 
 /// Looks at every statement, in interval arithmetic. On [m − h, m + h] a pair of bodies keeps at
 /// least its gap along a direction at m less Σ |q_j(t) − q_j(m)|·reach_j (JointedRobot::Levers);
-/// where that is not enough the interval is halved, until it is shorter than a microsecond or the
-/// bodies are nearer than demanded at m. `scene`: its obstacles, at rest; a mesh counts as its
-/// convex hull. `progress(done)`, done ∈ [0, 1], says whether to go on. Throws InputError for
-/// obstacles that move or are clouds, and for names in `ignored` that are no links.
+/// where that is not enough the interval is halved (Prove). `scene`: its obstacles, at rest; a mesh
+/// counts as its convex hull. `progress(done)`, done ∈ [0, 1], says whether to go on. Throws
+/// InputError for obstacles that move or are clouds, and for names in `ignored` that are no links.
 /// Source: experiments/check.md.
 TrajectoryCheck CheckTrajectory(const Trajectory& trajectory, const JointedRobot& robot,
                                 const Scene& scene, const TrajectoryDemands& demands,

@@ -15,12 +15,14 @@ constexpr double kRoundedUp = 1.0 + 1e-12;
 
 }  // namespace
 
-JointedRobot::JointedRobot(UrdfTree urdf, const std::map<std::string, std::string>& packages)
+JointedRobot::JointedRobot(UrdfTree urdf, const std::map<std::string, std::string>& packages,
+                           bool dae_up_axis)
     : urdf_(std::move(urdf)) {
   Complaints complaints;
   for (size_t i = 0; i < urdf_.links.size(); ++i) {
     int count = 0;
-    for (ConvexBody& shape : LinkShapes(urdf_, static_cast<int>(i), packages, &complaints)) {
+    for (ConvexBody& shape :
+         LinkShapes(urdf_, static_cast<int>(i), packages, dae_up_axis, &complaints)) {
       Body body{.name = urdf_.links[i].name, .link = static_cast<int>(i)};
       if (++count > 1) body.name += "#" + std::to_string(count);
       body.reach = kRoundedUp * (shape.center.norm() + shape.radius);

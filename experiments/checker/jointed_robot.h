@@ -28,8 +28,10 @@ class JointedRobot {
     double reach = 0.0;  ///< at any joint angles [m]
   };
 
-  /// Throws InputError with every complaint about meshes. `packages`: name → folder.
-  JointedRobot(UrdfTree urdf, const std::map<std::string, std::string>& packages);
+  /// Throws InputError with every complaint about meshes. `packages` (name → folder) and
+  /// `dae_up_axis` as for LinkShapes.
+  JointedRobot(UrdfTree urdf, const std::map<std::string, std::string>& packages,
+               bool dae_up_axis = false);
 
   const UrdfTree& urdf() const { return urdf_; }               ///< as read
   const std::vector<Body>& bodies() const { return bodies_; }  ///< of all links

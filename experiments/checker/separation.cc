@@ -45,7 +45,7 @@ Vector3d NearestInHull(std::vector<Vector3d>* points) {
   return nearest;
 }
 
-// An upper bound of max over a body at X of n·x, for all n within ±`off` of `n_B` by component.
+// Bounds of which the upper one is not below the maximum of n·x over a body at X.
 Interval SupportAlong(const Vector& n_W, const ConvexBody& body, const Frame& X) {
   Vector n;  // Rᵀn: what n·(R x + p) asks for
   for (size_t k = 0; k < 3; ++k) n[k] = Dot({X.R[0][k], X.R[1][k], X.R[2][k]}, n_W);

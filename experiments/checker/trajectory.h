@@ -41,7 +41,7 @@ struct JointNames {
 ///   .yaml        trajectory_msgs/JointTrajectory: joint_names, and points with positions,
 ///                velocities, accelerations, time_from_start
 /// Columns of no joint are left out. Throws InputError with the line of what is wrong: fewer than
-/// two knots, times that do not grow, numbers that are not finite, one of the other joints,
+/// two knots, times that do not grow, numbers beyond 1e6, one of the other joints,
 /// velocities or accelerations of some joints only, or not what an interpolation needs.
 Trajectory ReadTrajectory(const std::string& path,
                           const std::optional<Interpolation>& interpolation,

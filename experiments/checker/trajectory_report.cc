@@ -24,7 +24,7 @@ constexpr KindText kTexts[] = {{Kind::kLimits, "joint limits", "rad", 1.0},
                                {Kind::kClearance, "clearance", "mm", 1e3}};
 
 std::string MissedText(const TrajectoryFinding& finding, const KindText& text) {
-  if (std::isinf(finding.least)) {
+  if (text.kind == Kind::kAcceleration && std::isinf(finding.least)) {
     return Formatted("%s at %.4f s: its velocity jumps there (linear pieces have no accelerations)",
                      finding.subject.c_str(), finding.at);
   }

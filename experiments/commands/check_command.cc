@@ -15,21 +15,36 @@
 #include "experiments/run/progress_bar.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/suggestion.h"
-#include "wpg/robot/robot_tree.h"
+#include "wpg/files/text.h"
+#include "wpg/robot/robot_fields.h"
 
 namespace halfstep {
 namespace {
 
 namespace fs = std::filesystem;
 
-// A URDF, or that of a robot file or of a shipped robot.
-UrdfTree TreeOf(const std::string& robot) {
-  if (fs::path(robot).extension() == ".urdf") return ReadUrdf(robot);
+// A URDF with what a robot file says beside it.
+struct GivenRobot {
+  UrdfTree urdf;
+  std::map<std::string, std::string> packages = {};
+  bool dae_up_axis = false;
+  std::vector<std::pair<std::string, std::string>> excluded = {};  // links
+};
+
+GivenRobot Given(const std::string& robot) {
+  if (fs::path(robot).extension() == ".urdf") return {ReadUrdf(robot)};
   ExperimentConfig config;
   config.robot = robot;
-  const fs::path path = RobotPath(config);
+  const std::string path = RobotPath(config).string();
   if (!fs::exists(path)) throw InputError({"--robot: " + UnknownRobot(robot)});
-  return LoadWholeRobot(path.string()).tree.urdf;
+  RobotFile file = ReadRobotFile(path, ReadYamlFile(path));
+  GivenRobot given{.urdf = std::move(*file.urdf),
+                   .packages = std::move(file.packages),
+                   .dae_up_axis = file.dae_up_axis == "applied"};
+  for (const ExcludedPair& pair : file.excluded) {
+    given.excluded.emplace_back(pair.links[0], pair.links[1]);
+  }
+  return given;
 }
 
 checker::JointNames NamesOf(const UrdfTree& urdf) {
@@ -70,23 +85,32 @@ std::vector<std::string> NotLookedAt(const checker::Trajectory& trajectory, cons
 }  // namespace
 
 ExitStatus CheckMotion(const CheckCommand& command) {
-  const UrdfTree urdf = TreeOf(command.robot);
+  GivenRobot given = Given(command.robot);
+  const UrdfTree& urdf = given.urdf;
+  if (!urdf.warnings.empty()) TellUnder("warnings of the URDF", urdf.warnings);
   const checker::Trajectory trajectory =
       checker::ReadTrajectory(command.trajectory, command.interpolation, NamesOf(urdf));
   Scene scene;
   if (!command.scene.empty()) {
     scene = LoadScene(FileOrShipped(command.scene, "scenes").string());
   }
-  const checker::JointedRobot robot(urdf, command.packages);
+  for (const auto& [name, folder] : command.packages) given.packages[name] = folder;
+  const checker::JointedRobot robot(urdf, given.packages, given.dae_up_axis);
+  checker::TrajectoryDemands demands = command.demands;
+  demands.ignored.insert(demands.ignored.end(), given.excluded.begin(), given.excluded.end());
   InterruptGuard interrupt;
   std::optional<ProgressBar> bar(std::in_place, "check", command.quiet);
   checker::TrajectoryCheck check =
-      checker::CheckTrajectory(trajectory, robot, scene, command.demands, [&](double done) {
+      checker::CheckTrajectory(trajectory, robot, scene, demands, [&](double done) {
         bar->Update(done);
         return !interrupt.token().stop_requested();
       });
   bar.reset();
-  const std::vector<std::string> told = NotLookedAt(trajectory, urdf, !command.scene.empty());
+  std::vector<std::string> told = NotLookedAt(trajectory, urdf, !command.scene.empty());
+  if (!given.excluded.empty()) {
+    told.push_back(
+        Formatted("%zu pairs of links that the robot file excludes", given.excluded.size()));
+  }
   check.not_covered.insert(check.not_covered.end(), told.begin(), told.end());
   if (command.json) {
     std::cout << checker::CheckJson(trajectory, check);

@@ -91,5 +91,29 @@ TEST(CheckCommand, SaysWhatIsProvedAndWhatIsNot) {
   EXPECT_EQ(Halfstep(place.path(), {"check", "arm.csv", "--robot", "armm"}).status, kBadInput);
 }
 
+// A robot file says where meshes are.
+TEST(CheckCommand, TakesShippedRobotsByTheirNames) {
+  const TemporaryFolder place;
+  WriteText(place / "knee.csv", "t_s,RLEG_JOINT3\n0,0.5\n2,1\n");
+  const Outcome knee =
+      Halfstep(place.path(), {"check", "knee.csv", "--robot", "hrp2", "--scene", "bar_8cm"});
+  EXPECT_THAT(knee.out, AllOf(HasSubstr("joint speeds         proved for all t: 1"),
+                              HasSubstr("clearance            proved for all t: 22")));
+  EXPECT_EQ(knee.err, "");
+}
+
+// A hand that rests where it keeps exactly what is asked is not looked at for ever.
+TEST(CheckCommand, WhatRestsAtItsLimitEnds) {
+  const TemporaryFolder place;
+  WriteText(place / "arm.urdf", ArmText());
+  WriteText(place / "arm.csv", "t_s,shoulder\n0,0\n1000,0\n");
+  WriteText(place / "ball.yaml",
+            "obstacles:\n  - {name: ball, sphere: {radius_m: 0.05}, pose: {xyz: [0.9, 0, 0.2]}}\n");
+  const Outcome at = Halfstep(place.path(), {"check", "arm.csv", "--robot", "arm.urdf", "--scene",
+                                             "ball.yaml", "--clearance", "0.11", "--json"});
+  EXPECT_NE(at.status, kBadInput) << at.err;
+  EXPECT_THAT(at.out, HasSubstr("\"stopped\": false"));
+}
+
 }  // namespace
 }  // namespace halfstep::checker

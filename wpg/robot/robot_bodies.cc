@@ -193,9 +193,10 @@ std::vector<std::string> MeshPackages(const UrdfTree& urdf) {
 
 std::vector<ConvexBody> LinkShapes(const UrdfTree& urdf, int link,
                                    const std::map<std::string, std::string>& packages,
-                                   Complaints* complaints) {
+                                   bool dae_up_axis, Complaints* complaints) {
   BodyRequest request;
   request.packages = packages;
+  request.dae_up_axis = dae_up_axis;
   std::vector<ConvexBody> all;
   std::vector<InputFile> meshes;
   std::set<std::string> missing;
