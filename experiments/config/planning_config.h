@@ -26,12 +26,14 @@ struct GoalConfig {
 
 /// The group `planner`.
 struct PlannerConfig {
-  std::string name = "rrt";       ///< one of known.Names()
-  std::string cost = "steps";     ///< a name of CostKind
-  std::string free_by = {};       ///< volumes or certificates; "": as the ground wants it
-  StepCost estimate;              ///< its numbers; Cost() sets its kind by `cost`
-  int max_nodes = 100000;         ///< ends the search
-  int unimproved_nodes = 500;     ///< ends after these without a better plan; 0: at the first plan
+  std::string name = "best";  ///< one of known.Names()
+  std::string cost = {};      ///< a name of CostKind; "": as `name` wants it
+  std::string free_by = {};   ///< volumes or certificates; "": as the ground wants it
+  StepCost estimate;          ///< its numbers; Cost() sets its kind by `cost`
+  int max_nodes = 100000;     ///< ends the search
+  /// Ends after these without a better plan; 0: at the first plan; none: as `name` wants it.
+  std::optional<double> unimproved_nodes = {};
+  double improving_effort = 1.0;  ///< of `best`: ends when there is a plan after this much work
   double effort = 60.0;           ///< ends the search (PlanProgress::effort)
   double deadline = 0.0;          ///< an emergency stop by the clock [s]; 0: none
   int max_refusals = 5;           ///< plans that the full check may refuse before planning ends
@@ -39,8 +41,11 @@ struct PlannerConfig {
   PlannerOptions options;         ///< of the planner by that name
   Planners known = Planners::Standard();  ///< those that `name` may name
 
-  /// The cost that plans are compared by.
+  /// The cost that plans are compared by, and its name.
   StepCost Cost() const;
+  std::string CostName() const;
+  /// When a plan is good enough.
+  Termination Enough() const;
 };
 
 /// The group `swept_volumes`.

@@ -41,7 +41,7 @@ std::string PlanJson(const PlannedWalk& walk) {
         {"box_m", goal.box},
         {"yaw_tolerance_rad", goal.yaw_tolerance ? nlohmann::ordered_json(*goal.yaw_tolerance)
                                                  : nlohmann::ordered_json(nullptr)}}},
-      {"cost_kind", walk.config.planner.cost},
+      {"cost_kind", walk.config.planner.CostName()},
       {"cost", number(plan.cost)},
       {"footsteps", plan.footsteps.size()},
       {"places", PlacesJson(walk)},

@@ -4,12 +4,14 @@
 #include <limits>
 
 #include "experiments/run/certificate_query.h"
+#include "experiments/run/failure_words.h"
 #include "experiments/run/ground_steps.h"
 #include "experiments/run/half_step_forms.h"
 #include "experiments/run/half_step_table.h"
 #include "experiments/run/level_crossings.h"
 #include "experiments/run/narrow_surfaces.h"
 #include "experiments/run/plan_inputs.h"
+#include "experiments/run/watched_query.h"
 #include "planner/search/planners.h"
 #include "planner/swept/obstacle_places.h"
 #include "planner/swept/swept_volume_query.h"
@@ -51,8 +53,7 @@ Termination StopOf(const PlannerConfig& config, const PlanningHooks& hooks) {
   if (config.deadline > 0.0) {
     all.push_back(AtTime(SteadySeconds, SteadySeconds() + config.deadline));
   }
-  all.push_back(config.unimproved_nodes == 0 ? AtFirstPlan()
-                                             : WhenNotImprovedFor(config.unimproved_nodes));
+  all.push_back(config.Enough());
   return AnyOf(std::move(all));
 }
 
@@ -108,7 +109,12 @@ struct Search {
   const HalfStepQuery& query;
   std::function<double(const Pose2&, double)> ground = {};  // as in PlanRequest
   std::function<double()> effort = {};                      // of the query; empty: as is counted
+  const SweptVolumes* volumes = nullptr;                    // of the query, if it asks these
 };
+
+void Say(const std::string& more, PlannedWalk* walk) {
+  if (!more.empty()) walk->plan.sentence += "; " + more;
+}
 
 // Plans with walk->config and writes into it.
 void SearchWith(const Search& search, const Place& place, const PlanningHooks& hooks,
@@ -120,10 +126,12 @@ void SearchWith(const Search& search, const Place& place, const PlanningHooks& h
   const CertifiedFeasibility test(evaluator, config.smoothing.certification);
   const HalfStep prototype = PrototypeOf(config);
 
+  const GoalRegion goal = GoalOn(config.goal, ground);
+  const WatchedQuery watched(search.query, goal);
   PlanRequest request{.start = StartOf(config, place.robot, ground),
-                      .goal = GoalOn(config.goal, ground),
+                      .goal = goal,
                       .set = search.set,
-                      .query = search.query,
+                      .query = watched,
                       .cost = config.planner.Cost(),
                       .ground = search.ground};
   if (HasLevels(ground) && !search.ground) {
@@ -143,24 +151,28 @@ void SearchWith(const Search& search, const Place& place, const PlanningHooks& h
   };
   request.max_refusals = config.planner.max_refusals;
   request.clock = SteadySeconds;
+  request.proofs = search.effort;
   request.stop = StopOf(config.planner, hooks);
-  if (search.effort) {
-    request.stop = AnyOf({request.stop, [&](const PlanProgress& progress) {
-                            return progress.effort() + search.effort() >= config.planner.effort
-                                       ? StopReason::kBudget
-                                       : StopReason::kGoOn;
-                          }});
-  }
   std::mt19937_64 random(static_cast<std::uint64_t>(config.seed));
   const auto planner =
       config.planner.known.Make(config.planner.name, place.scene, config.planner.options);
   walk->plan = planner->Plan(request, random);
   if (search.effort) walk->proof_effort += search.effort();
   if (walk->plan.status == PlanStatus::kSolved) {
+    if (search.volumes != nullptr) {
+      Say(DetourWords(request, walk->plan, *search.volumes, place, evaluator.limits()), walk);
+    }
     walk->config = WithFootsteps(config, request.start, walk->plan.footsteps, place);
-  } else {
-    ExplainNoPlan(place, evaluator, walk);
+    return;
   }
+  if (walk->plan.status == PlanStatus::kBudget || walk->plan.status == PlanStatus::kNoPlan) {
+    Say(BudgetWords(config.planner, walk->plan, search.effort ? search.effort() : 0.0), walk);
+    Say(NearestWords(watched, request), walk);
+    if (search.volumes != nullptr) {
+      Say(BlockingWords(watched, *search.volumes, place, evaluator.limits()), walk);
+    }
+  }
+  ExplainNoPlan(place, evaluator, walk);
 }
 
 // Whether a foot starts where none may stand; then the walk says so.
@@ -241,7 +253,7 @@ void PlanByVolumes(const Place& place, const PlanningHooks& hooks, PlannedWalk* 
   const SweptVolumeQuery query(
       volumes, place.robot.sole_outline, place.scene, limits.demanded_of(MarginFamily::kNoStep),
       std::numeric_limits<double>::infinity(), limits.demanded_of(MarginFamily::kFoothold));
-  SearchWith({.set = volumes.set, .query = query}, place, hooks, walk);
+  SearchWith({.set = volumes.set, .query = query, .volumes = &volumes}, place, hooks, walk);
 }
 
 }  // namespace
@@ -255,8 +267,8 @@ PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
       config.planner.known.Make(config.planner.name, place.scene, config.planner.options);
   if (HasLevels(ground) && !planner->knows_levels()) {
     throw InputError({"planner.name: " + Quote(config.planner.name) +
-                      " plans at one height only, and the scene's ground has levels (valid: rrt, "
-                      "astar, astar/classic)"});
+                      " plans at one height only, and the scene's ground has levels (valid: best, "
+                      "rrt, astar, astar/classic)"});
   }
   GoalOn(config.goal, ground);  // complains before anything is computed
   const bool by_certificates = ByCertificates(config, place.scene);

@@ -42,11 +42,10 @@ TreeSample Sample(const StepGraph& graph, double goal_bias, std::mt19937_64& ran
   return sample;
 }
 
-// Whether the tree found a plan, or ended without one.
-enum class TreeEnd { kPlan, kStopped, kExhausted };
+}  // namespace
 
 TreeEnd GrowTree(const std::vector<StepState>& starts, const RrtOptions& options, StepGraph* graph,
-                 PlanMonitor* monitor, std::mt19937_64& random) {
+                 PlanMonitor* monitor, std::mt19937_64& random, StepPlan* plan) {
   StepTree tree({}, options.cells, graph, monitor);
   StepTree::Growth growth = StepTree::Growth::kTrapped;
   for (const StepState& start : starts) {
@@ -59,9 +58,11 @@ TreeEnd GrowTree(const std::vector<StepState>& starts, const RrtOptions& options
     if (tree.IsExhausted()) return TreeEnd::kExhausted;
     growth = tree.Grow(Sample(*graph, options.goal_bias, random));
   }
-  monitor->Offer(tree.arrival());
+  *plan = tree.arrival();
   return TreeEnd::kPlan;
 }
+
+namespace {
 
 // No plan from these states can be cheaper.
 bool IsCheapest(double cost, const std::vector<StepState>& starts, const StepGraph& graph) {
@@ -77,8 +78,10 @@ PlanResult FootstepRrt::Plan(const PlanRequest& request, std::mt19937_64& random
   return PlanWith(
       request, AllElements(request.set),
       [&](const std::vector<StepState>& starts, StepGraph* graph, PlanMonitor* monitor) {
-        const TreeEnd end = GrowTree(starts, options_, graph, monitor, random);
+        StepPlan first;
+        const TreeEnd end = GrowTree(starts, options_, graph, monitor, random, &first);
         if (end != TreeEnd::kPlan) return SearchEnd{.exhausted = end == TreeEnd::kExhausted};
+        monitor->Offer(std::move(first));
         while (!IsCheapest(monitor->best_cost(), starts, *graph)) {
           if (monitor->Stop()) return SearchEnd{};
           const StepPlan best = monitor->plans().back();

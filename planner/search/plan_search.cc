@@ -91,8 +91,9 @@ void Explain(const SearchEnd& end, PlanResult* result) {
 bool PlanMonitor::Stop() {
   if (reason_ != StopReason::kGoOn) return true;
   progress_.queries = graph_.queries();
+  if (request_.proofs) progress_.proofs = request_.proofs();
   reason_ = request_.stop ? request_.stop(progress_) : AtFirstPlan()(progress_);
-  return reason_ != StopReason::kGoOn;
+  return reason_ != StopReason::kGoOn || progress_.effort() >= turn_ends_;
 }
 
 void PlanMonitor::CountNode() {
@@ -117,6 +118,7 @@ void PlanMonitor::StartOver() {
   progress_.cost = std::numeric_limits<double>::infinity();
   progress_.nodes_since_improvement = 0;
   reason_ = StopReason::kGoOn;
+  turn_ends_ = std::numeric_limits<double>::infinity();
   plans_.clear();
 }
 

@@ -25,6 +25,11 @@ class PlanMonitor {
 
   /// Whether to stop; true from then on. To be asked before every node.
   bool Stop();
+  /// From now on Stop() is also true after that much more effort, until the next call of it:
+  /// several searches then take turns. ∞: as it was at first.
+  void Allow(double effort) { turn_ends_ = progress_.effort() + effort; }
+  /// Whether planning is over, not only this search's turn.
+  bool stopped() const { return reason_ != StopReason::kGoOn; }
   void CountNode();  ///< to be called for each node
   /// Keeps a plan if it is cheaper than all before, and returns whether it is.
   bool Offer(StepPlan plan);
@@ -45,6 +50,7 @@ class PlanMonitor {
   const StepGraph& graph_;
   PlanProgress progress_;
   StopReason reason_ = StopReason::kGoOn;
+  double turn_ends_ = std::numeric_limits<double>::infinity();
   std::vector<StepPlan> plans_;
   double begin_ = request_.clock ? request_.clock() : 0.0;
   double time_to_first_ = std::numeric_limits<double>::quiet_NaN();

@@ -98,8 +98,9 @@ bool Follow(const Unrolled& path, size_t from, StepState state, StepGraph* graph
 
 }  // namespace
 
-bool TryShortcut(const StepPlan& plan, const std::vector<StepState>& starts, const PoseCells& cells,
-                 StepGraph* graph, PlanMonitor* monitor, std::mt19937_64& random) {
+std::optional<StepPlan> FindShortcut(const StepPlan& plan, const std::vector<StepState>& starts,
+                                     const PoseCells& cells, StepGraph* graph, PlanMonitor* monitor,
+                                     std::mt19937_64& random) {
   const Unrolled path = Unroll(*graph, plan);
   const int count = static_cast<int>(plan.ks.size());
   const int a = Pick(count, random);
@@ -107,15 +108,21 @@ bool TryShortcut(const StepPlan& plan, const std::vector<StepState>& starts, con
   const auto ia = static_cast<size_t>(a), ib = static_cast<size_t>(b);
   const std::vector<StepState> roots = a == 0 ? starts : std::vector{path.states[ia]};
   const auto stretch = PlanStretch(roots, path, ia, ib, cells, graph, monitor, random);
-  if (!stretch) return false;
+  if (!stretch) return std::nullopt;
   StepPlan candidate{.start = a == 0 ? stretch->start : plan.start,
                      .ks = {plan.ks.begin(), plan.ks.begin() + a},
                      .cost = stretch->cost};
   candidate.ks.insert(candidate.ks.end(), stretch->ks.begin(), stretch->ks.end());
   StepState state = stretch->start;
   for (int k : stretch->ks) state = graph->After(state, k);
-  if (b < count && !Follow(path, ib, state, graph, &candidate)) return false;
-  return monitor->Offer(std::move(candidate));
+  if (b < count && !Follow(path, ib, state, graph, &candidate)) return std::nullopt;
+  return candidate;
+}
+
+bool TryShortcut(const StepPlan& plan, const std::vector<StepState>& starts, const PoseCells& cells,
+                 StepGraph* graph, PlanMonitor* monitor, std::mt19937_64& random) {
+  std::optional<StepPlan> found = FindShortcut(plan, starts, cells, graph, monitor, random);
+  return found && monitor->Offer(std::move(*found));
 }
 
 double Uniform(double lower, double upper, std::mt19937_64& random) {

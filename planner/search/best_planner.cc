@@ -1,0 +1,181 @@
+#include "planner/search/best_planner.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "planner/search/least_cost.h"
+#include "planner/search/plan_search.h"
+#include "planner/search/plan_shortcut.h"
+#include "planner/search/stand_map.h"
+#include "planner/search/state_buckets.h"
+#include "planner/search/step_search.h"
+
+namespace halfstep {
+namespace {
+
+constexpr double kFirstTurn = 1.0;       // effort until the other kind of search looks for a plan
+constexpr double kImprovingTurn = 0.02;  // effort of the first turns that improve it
+constexpr int kRestarts = 2;             // of a random tree, a round
+constexpr int kPlaces = 4000;            // of the map
+/// Of A*, one turn after the other: the larger, the sooner it finds a way.
+constexpr double kWeights[] = {2.0, 1.4, 1.15};
+constexpr double kFirstWeight = 5.0;
+
+// One call of Plan.
+class BestSearch {
+ public:
+  BestSearch(const PlanRequest& request, const std::vector<StepState>& starts,
+             const RrtOptions& rrt, const PoseCells& cells, StepGraph* graph, PlanMonitor* monitor,
+             std::mt19937_64* random)
+      : request_(request),
+        starts_(starts),
+        rrt_(rrt),
+        cells_(cells),
+        graph_(*graph),
+        monitor_(*monitor),
+        random_(*random),
+        least_(request.set, *graph) {}
+
+  SearchEnd Run() {
+    for (double turn = kFirstTurn; monitor_.plans().empty(); turn *= 2.0) {
+      monitor_.Allow(turn);
+      if (Grow(nullptr)) return {.exhausted = true};
+      if (!monitor_.plans().empty()) break;
+      if (monitor_.stopped()) return {};
+      monitor_.Allow(turn);
+      if (SearchWith(kFirstWeight)) return {.exhausted = true};
+      if (monitor_.stopped()) return {};
+    }
+    monitor_.Allow(std::numeric_limits<double>::infinity());
+    if (monitor_.Stop()) return {};
+    if (!request_.ground) map_.emplace(request_.set, starts_.front(), kPlaces, &graph_);
+    for (double turn = kImprovingTurn; !IsCheapest(); turn *= 1.5) {
+      if (Round(turn)) break;
+      if (monitor_.stopped()) return {};
+    }
+    return {.exhausted = true};
+  }
+
+ private:
+  // Whether no plan is cheaper than the best.
+  bool IsCheapest() const {
+    return std::ranges::all_of(starts_, [this](const StepState& start) {
+      return monitor_.best_cost() <= least_.From(start) * (1.0 + 1e-12);
+    });
+  }
+
+  // One turn of each way to improve the best plan; whether nothing is better.
+  bool Round(double turn) {
+    for (const double weight : kWeights) {
+      monitor_.Allow(turn);
+      if (SearchWith(weight)) return true;
+      if (monitor_.stopped()) return false;
+    }
+    monitor_.Allow(turn);
+    SearchAlong(monitor_.plans().back());
+    if (monitor_.stopped()) return false;
+    monitor_.Allow(turn);
+    Shorten(monitor_.plans().back());
+    if (monitor_.stopped()) return false;
+    for (int restart = 0; restart < kRestarts && !monitor_.stopped(); ++restart) {
+      monitor_.Allow(turn);
+      StepPlan other;
+      Grow(&other);
+      if (other.ks.empty() || monitor_.stopped()) continue;
+      other = Shorten(std::move(other));
+      if (monitor_.stopped()) break;
+      monitor_.Allow(turn);
+      SearchAlong(other);
+    }
+    return false;
+  }
+
+  // Until the turn ends.
+  StepPlan Shorten(StepPlan plan) {
+    while (!monitor_.Stop()) {
+      auto found = FindShortcut(plan, starts_, rrt_.cells, &graph_, &monitor_, random_);
+      if (!found || !(found->cost < plan.cost)) continue;
+      plan = std::move(*found);
+      monitor_.Offer(plan);
+    }
+    return plan;
+  }
+
+  // A tree; whether it ended for want of half-steps.
+  bool Grow(StepPlan* plan) {
+    StepPlan grown;
+    const TreeEnd end = GrowTree(starts_, rrt_, &graph_, &monitor_, random_, &grown);
+    if (end == TreeEnd::kPlan) monitor_.Offer(grown);
+    if (end == TreeEnd::kPlan && plan != nullptr) *plan = std::move(grown);
+    return end == TreeEnd::kExhausted;
+  }
+
+  // A*; whether there is nothing better.
+  bool SearchWith(double weight) {
+    const double before = monitor_.best_cost(), each = graph_.reach().least_cost();
+    const auto to_go = [&](const StepState& state) {
+      const double bound = least_.From(state);
+      double guess = bound;
+      if (map_) {
+        constexpr double kOffTheMap = 1.0;  // [m] more than the bound says
+        const double way = map_->Way(state.X_WS.Planar().position());
+        guess = std::isfinite(way) ? std::max(guess, least_.per_metre() * way)
+                                   : guess + least_.per_metre() * kOffTheMap;
+      }
+      return StepsToGo{.bound = bound / each, .guess = guess / each};
+    };
+    const bool ended =
+        SearchSteps(starts_, to_go, {.weights = {weight}, .cells = cells_}, &graph_, &monitor_);
+    return ended && monitor_.best_cost() == before;
+  }
+
+  // A* near a plan, which tells how far it is to the goal around what stands in between.
+  void SearchAlong(const StepPlan& plan) {
+    constexpr double kNear = 0.4;    // [m] of its states, by StateDistance
+    constexpr double kBetter = 0.9;  // what a good plan costs of it
+    std::vector<StepState> states = {plan.start};
+    std::vector<double> left = {plan.cost};
+    for (int k : plan.ks) {
+      states.push_back(graph_.After(states.back(), k));
+      left.push_back(left.back() - graph_.cost(k));
+    }
+    const double each = graph_.reach().least_cost();
+    const auto to_go = [&](const StepState& state) {
+      double guess = std::numeric_limits<double>::infinity();
+      for (size_t j = 0; j < states.size(); ++j) {
+        const Pose2 X_WS = state.X_WS.Planar(), near = states[j].X_WS.Planar();
+        if ((X_WS.position() - near.position()).squaredNorm() > kNear * kNear) continue;
+        const double away = StateDistance(X_WS, near, true);
+        if (away > kNear) continue;
+        guess = std::min(guess, kBetter * left[j] + least_.per_metre() * away);
+      }
+      const double bound = least_.From(state);
+      return StepsToGo{.bound = bound / each, .guess = std::max(bound, guess) / each};
+    };
+    SearchSteps(starts_, to_go, {.weights = {1.0}, .cells = cells_}, &graph_, &monitor_);
+  }
+
+  const PlanRequest& request_;
+  const std::vector<StepState>& starts_;
+  const RrtOptions& rrt_;
+  const PoseCells& cells_;
+  StepGraph& graph_;
+  PlanMonitor& monitor_;
+  std::mt19937_64& random_;
+  LeastCost least_;
+  std::optional<StandMap> map_;
+};
+
+}  // namespace
+
+PlanResult BestPlanner::Plan(const PlanRequest& request, std::mt19937_64& random) const {
+  return PlanWith(
+      request, AllElements(request.set),
+      [&](const std::vector<StepState>& starts, StepGraph* graph, PlanMonitor* monitor) {
+        return BestSearch(request, starts, rrt_, cells_, graph, monitor, &random).Run();
+      });
+}
+
+}  // namespace halfstep
