@@ -61,7 +61,7 @@ Footprint FootprintOf(const Obstacle& obstacle) {
 }
 
 // A half-step turned against the obstacle's narrower side.
-struct Turned {
+struct TurnedElement {
   int element;
   Side support;
   double yaw;     // of the support sole against `across` [rad]
@@ -71,14 +71,14 @@ struct Turned {
   double room() const { return way - before - behind; }  // between the soles [m]
 };
 
-std::vector<Turned> TurnedHalfSteps(const RobotModel& robot, const StepSet& set) {
+std::vector<TurnedElement> TurnedHalfSteps(const RobotModel& robot, const StepSet& set) {
   constexpr int kYaws = 24;
   const auto end = [&](double yaw, double sign) {
     const Eigen::RowVectorXd x =
         Eigen::RowVector2d(Cos(yaw), -Sin(yaw)) * robot.sole_outline;  // across
     return (sign * x).maxCoeff();
   };
-  std::vector<Turned> all;
+  std::vector<TurnedElement> all;
   for (int i = 0; i < set.size(); ++i) {
     for (const Side support : {Side::kLeft, Side::kRight}) {
       const Foothold X_SF = set.Placement(i, support);
@@ -96,30 +96,75 @@ std::vector<Turned> TurnedHalfSteps(const RobotModel& robot, const StepSet& set)
   return all;
 }
 
-// Whether one of them is free over the obstacle alone.
-bool SomeStepsOver(const Obstacle& obstacle, const Footprint& print, const RobotModel& robot,
-                   const SweptVolumes& volumes, const std::vector<Turned>& half_steps,
-                   double clearance) {
-  Scene scene;
-  scene.obstacles = {obstacle};
-  const SweptVolumeQuery query(volumes, robot.sole_outline, scene);
-  constexpr int kPlaces = 5;
-  const double turn = Atan2(print.across.y(), print.across.x());
-  for (const Turned& half_step : half_steps) {
-    const double last = print.near - clearance - half_step.before;
-    const double first = print.far + clearance + half_step.behind - half_step.way;
-    for (int j = 0; j < kPlaces; ++j) {
-      const Eigen::Vector2d p_W = (first + (last - first) * j / (kPlaces - 1)) * print.across +
-                                  0.5 * (print.left + print.right) * print.along;
-      const Foothold X_WS({p_W.x(), p_W.y(), turn + half_step.yaw}, 0.0);
-      if (query.DownIsFree(half_step.element, half_step.support, X_WS) &&
-          query.UpIsFree(half_step.element, half_step.support, X_WS)) {
-        return true;
+// How far a sole at X_WF reaches in a direction, seen from above [m].
+double SoleReach(const RobotModel& robot, const Foothold& X_WF, const Eigen::Vector2d& direction) {
+  const Pose2 X_W = X_WF.Planar();
+  return direction.dot(X_W.position()) +
+         (direction.transpose() * X_W.rotation() * robot.sole_outline).maxCoeff();
+}
+
+// Half-steps over an obstacle alone in a scene: a foot comes from before it and lands beyond, first
+// the one that goes ahead, then the one that follows.
+class StepsOver {
+ public:
+  StepsOver(const Obstacle& obstacle, const Footprint& print, const RobotModel& robot,
+            const SweptVolumes& volumes, double clearance)
+      : print_(print),
+        robot_(robot),
+        set_(volumes.set),
+        clearance_(clearance),
+        query_(volumes, robot.sole_outline, Alone(obstacle)) {}
+
+  // Whether some of the half-steps lead a foot ahead, and some one after it.
+  bool Any(const std::vector<TurnedElement>& half_steps) {
+    constexpr int kPlaces = 5;
+    const double turn = Atan2(print_.across.y(), print_.across.x());
+    for (const TurnedElement& half_step : half_steps) {
+      const double last = print_.near - clearance_ - half_step.before;
+      const double first = print_.far + clearance_ + half_step.behind - half_step.way;
+      for (int j = 0; j < kPlaces && !(leads_ && follows_); ++j) {
+        const Eigen::Vector2d p_W = (first + (last - first) * j / (kPlaces - 1)) * print_.across +
+                                    0.5 * (print_.left + print_.right) * print_.along;
+        Look(half_step, Foothold({p_W.x(), p_W.y(), turn + half_step.yaw}, 0.0));
+      }
+    }
+    return leads_ && follows_;
+  }
+
+ private:
+  static Scene Alone(const Obstacle& obstacle) {
+    Scene scene;
+    scene.obstacles = {obstacle};
+    return scene;
+  }
+
+  void Look(const TurnedElement& half_step, const Foothold& X_WS) {
+    const int i = half_step.element;
+    const Side foot = half_step.support, other = Opposite(foot);
+    if (!leads_ && query_.DownIsFree(i, foot, X_WS)) {
+      for (int k = 0; k < set_.size() && !leads_; ++k) {
+        const Foothold X_WA = X_WS * set_.Placement(k, other).Inverse();
+        leads_ = SoleReach(robot_, X_WA, print_.across) <= print_.near - clearance_ &&
+                 query_.UpIsFree(k, other, X_WA);
+      }
+    }
+    if (!follows_ && query_.UpIsFree(i, foot, X_WS)) {
+      const Foothold X_WF = X_WS * set_.Placement(i, foot);
+      for (int k = 0; k < set_.size() && !follows_; ++k) {
+        const Foothold X_WB = X_WF * set_.Placement(k, other);
+        follows_ = -SoleReach(robot_, X_WB, -print_.across) >= print_.far + clearance_ &&
+                   query_.DownIsFree(k, other, X_WF);
       }
     }
   }
-  return false;
-}
+
+  const Footprint& print_;
+  const RobotModel& robot_;
+  const StepSet& set_;
+  double clearance_;
+  SweptVolumeQuery query_;
+  bool leads_ = false, follows_ = false;
+};
 
 }  // namespace
 
@@ -129,8 +174,8 @@ std::string NoHalfStepOver(const Obstacle& obstacle, const RobotModel& robot,
   if (!obstacle.rests() || volumes.set.on_levels || !(print.top > 0.0)) return "";
   if (print.top >= volumes.set.prototype.via_height) return "";
   const double room = print.depth() + 2.0 * clearance;
-  std::vector<Turned> half_steps = TurnedHalfSteps(robot, volumes.set);
-  const auto widest = std::ranges::max_element(half_steps, {}, &Turned::room);
+  std::vector<TurnedElement> half_steps = TurnedHalfSteps(robot, volumes.set);
+  const auto widest = std::ranges::max_element(half_steps, {}, &TurnedElement::room);
   const std::string it = Quote(obstacle.name) + " is " + Formatted("%.3g m high", print.top);
   if (widest->room() < room) {
     return it + Formatted(
@@ -139,8 +184,8 @@ std::string NoHalfStepOver(const Obstacle& obstacle, const RobotModel& robot,
                     "half_step.duration_s)",
                     print.depth(), widest->before + widest->behind + room, widest->way);
   }
-  std::erase_if(half_steps, [room](const Turned& one) { return one.room() < room; });
-  if (SomeStepsOver(obstacle, print, robot, volumes, half_steps, clearance)) return "";
+  std::erase_if(half_steps, [room](const TurnedElement& one) { return one.room() < room; });
+  if (StepsOver(obstacle, print, robot, volumes, clearance).Any(half_steps)) return "";
   // How high it might be, as a box.
   Obstacle box = obstacle;
   const Eigen::Vector2d middle =
@@ -153,7 +198,7 @@ std::string NoHalfStepOver(const Obstacle& obstacle, const RobotModel& robot,
     const double height = 0.5 * (low + high);
     box.shape = Box{{print.depth(), print.right - print.left, height}};
     box.X_WO.translation() = Eigen::Vector3d(middle.x(), middle.y(), 0.5 * height);
-    (SomeStepsOver(box, print, robot, volumes, half_steps, clearance) ? low : high) = height;
+    (StepsOver(box, print, robot, volumes, clearance).Any(half_steps) ? low : high) = height;
   }
   return it + Formatted(
                   ": of its depth of %.3g m half-steps here lead over %.3g m (higher ones: "

@@ -51,9 +51,12 @@ class BestSearch {
     monitor_.Allow(std::numeric_limits<double>::infinity());
     if (monitor_.Stop()) return {};
     if (!request_.ground) map_.emplace(request_.set, starts_.front(), kPlaces, &graph_);
+    coarse_ = true;
     for (double turn = kImprovingTurn; !IsCheapest(); turn *= 1.5) {
-      if (Round(turn)) break;
+      const bool nothing_better = Round(turn);
+      if (nothing_better && !coarse_) break;
       if (monitor_.stopped()) return {};
+      coarse_ = !coarse_ && !nothing_better;
     }
     return {.exhausted = true};
   }
@@ -112,6 +115,13 @@ class BestSearch {
     return end == TreeEnd::kExhausted;
   }
 
+  // Of A*: in every second round, from the first on, larger ones, which leave fewer states.
+  PoseCells Cells() const {
+    constexpr double kLarger = 2.5;
+    if (!coarse_) return cells_;
+    return {.position = kLarger * cells_.position, .yaw = kLarger * cells_.yaw};
+  }
+
   // A*; whether there is nothing better.
   bool SearchWith(double weight) {
     const double before = monitor_.best_cost(), each = graph_.reach().least_cost();
@@ -127,7 +137,7 @@ class BestSearch {
       return StepsToGo{.bound = bound / each, .guess = guess / each};
     };
     const bool ended =
-        SearchSteps(starts_, to_go, {.weights = {weight}, .cells = cells_}, &graph_, &monitor_);
+        SearchSteps(starts_, to_go, {.weights = {weight}, .cells = Cells()}, &graph_, &monitor_);
     return ended && monitor_.best_cost() == before;
   }
 
@@ -154,7 +164,7 @@ class BestSearch {
       const double bound = least_.From(state);
       return StepsToGo{.bound = bound / each, .guess = std::max(bound, guess) / each};
     };
-    SearchSteps(starts_, to_go, {.weights = {1.0}, .cells = cells_}, &graph_, &monitor_);
+    SearchSteps(starts_, to_go, {.weights = {1.0}, .cells = Cells()}, &graph_, &monitor_);
   }
 
   const PlanRequest& request_;
@@ -165,6 +175,7 @@ class BestSearch {
   PlanMonitor& monitor_;
   std::mt19937_64& random_;
   LeastCost least_;
+  bool coarse_ = false;
   std::optional<StandMap> map_;
 };
 
