@@ -71,6 +71,17 @@ class BestSearch {
 
   // One turn of each way to improve the best plan; whether nothing is better.
   bool Round(double turn) {
+    monitor_.Allow(4.0 * turn);
+    StepPlan fewest = FewestSteps();
+    if (!fewest.ks.empty() && !monitor_.stopped()) {
+      monitor_.Allow(turn);
+      fewest = Shorten(std::move(fewest));
+    }
+    if (!fewest.ks.empty() && !monitor_.stopped()) {
+      monitor_.Allow(turn);
+      SearchAlong(fewest);
+    }
+    if (monitor_.stopped()) return false;
     for (const double weight : kWeights) {
       monitor_.Allow(turn);
       if (SearchWith(weight)) return true;
@@ -120,6 +131,35 @@ class BestSearch {
     constexpr double kLarger = 2.5;
     if (!coarse_) return cells_;
     return {.position = kLarger * cells_.position, .yaw = kLarger * cells_.yaw};
+  }
+
+  // A* for the fewest footsteps, whatever they cost: many plans have as few, so it soon finds one.
+  StepPlan FewestSteps() {
+    PlanRequest request = request_;
+    request.cost.kind = CostKind::kSteps;
+    StepGraph graph(request, graph_.elements());
+    std::int64_t nodes = 0, queries = 0;
+    request.stop = [&](const PlanProgress& progress) {
+      for (; nodes < progress.nodes; ++nodes) monitor_.CountNode();
+      graph_.AddQueries(graph.queries() - queries);
+      queries = graph.queries();
+      return monitor_.Stop() ? StopReason::kBudget : StopReason::kGoOn;
+    };
+    PlanMonitor monitor(request, graph);
+    const double per_step = 0.5 * graph.reach().Distance(2);
+    const auto to_go = [&](const StepState& state) {
+      const double way = map_ && coarse_ ? map_->Way(state.X_WS.Planar().position()) : 0.0;
+      const double guess = graph.SteadySteps(state);
+      return StepsToGo{.bound = static_cast<double>(graph.LeastSteps(state)),
+                       .guess = std::isfinite(way) ? std::max(guess, way / per_step) : guess + 3.0};
+    };
+    SearchSteps(starts_, to_go, {.weights = {2.5, 1.5, 1.0}, .cells = Cells()}, &graph, &monitor);
+    if (monitor.plans().empty()) return {};
+    StepPlan plan = monitor.plans().back();
+    plan.cost = 0.0;
+    for (int k : plan.ks) plan.cost += graph_.cost(k);
+    monitor_.Offer(plan);
+    return plan;
   }
 
   // A*; whether there is nothing better.

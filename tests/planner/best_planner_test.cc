@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "planner/search/footstep_astar.h"
 #include "planner/search/least_cost.h"
 #include "planner/search/plan_search.h"
 #include "tests/planner/flat_world.h"
@@ -24,21 +23,18 @@ TEST(LeastCost, NeverExceedsWhatAPlanCosts) {
   const StepSet set = PlausibleSet();
   const FlatQuery query(set, {});
   int states = 0, above_half = 0;
-  for (const CostKind kind :
-       {CostKind::kSteps, CostKind::kRawDuration, CostKind::kSmoothedDuration}) {
+  for (const CostKind kind : {CostKind::kSteps, CostKind::kSmoothedDuration}) {
     for (const GoalPart part : {GoalPart::kEitherFoot, GoalPart::kLeftFoot, GoalPart::kMidFeet}) {
-      for (int trial = 0; trial < 6; ++trial) {
-        const double angle = 1.1 * trial;
+      for (int trial = 0; trial < 3; ++trial) {
+        const double angle = 2.1 * trial;
         PlanRequest request =
             RequestTo({1.2 * std::cos(angle), 1.2 * std::sin(angle), angle}, set, query);
         request.goal.part = part;
         if (trial % 2 == 1) request.goal.yaw_tolerance = 0.3;
         request.cost.kind = kind;
+        request.stop = AnyOf({WhenPlannedAfter(0.02), AfterEffort(1.0)});
         std::mt19937_64 random(1);
-        StepSearchOptions options;
-        options.weights = {1.5};
-        const PlanResult plan =
-            FootstepAStar(FootstepAStar::Elements::kAll, options).Plan(request, random);
+        const PlanResult plan = BestPlanner({}, {}).Plan(request, random);
         ASSERT_EQ(plan.status, PlanStatus::kSolved) << plan.sentence;
         const StepGraph graph(request, AllElements(set));
         const LeastCost least(set, graph);
@@ -66,14 +62,14 @@ TEST(BestPlanner, FindsTheWayThroughAGapOnTheFarSide) {
   request.start_is_free = [&query](const HalfStep& up, const Foothold& X_WS) {
     return query.StartIsFree(up, X_WS);
   };
-  const PlanResult best = PlanBest(request, 2.0);
+  const PlanResult best = PlanBest(request, 0.25);
   ASSERT_EQ(best.status, PlanStatus::kSolved) << best.sentence;
-  for (const std::uint64_t seed : {2, 3}) {
-    const PlanResult soon = PlanBest(request, 0.2, seed);
+  for (const std::uint64_t seed : {2}) {
+    const PlanResult soon = PlanBest(request, 0.1, seed);
     ASSERT_EQ(soon.status, PlanStatus::kSolved) << soon.sentence;
     EXPECT_LE(soon.cost, 1.05 * best.cost);
-    EXPECT_GE(soon.effort(), 0.2);
-    EXPECT_LT(soon.effort(), 0.25);
+    EXPECT_GE(soon.effort(), 0.1);
+    EXPECT_LT(soon.effort(), 0.12);
   }
 }
 
@@ -81,7 +77,7 @@ TEST(BestPlanner, TheSameSeedGivesTheSamePlanNodeForNode) {
   const StepSet set = PlausibleSet();
   const FlatQuery query(set, WallWithGap(0.3, 0.8));
   const PlanRequest request = RequestTo({2.0, 0.0, 0.0}, set, query);
-  const PlanResult once = PlanBest(request, 0.1), again = PlanBest(request, 0.1);
+  const PlanResult once = PlanBest(request, 0.05), again = PlanBest(request, 0.05);
   EXPECT_EQ(once.elements, again.elements);
   EXPECT_EQ(once.nodes, again.nodes);
   EXPECT_EQ(once.queries, again.queries);
