@@ -166,6 +166,24 @@ class StepsOver {
   bool leads_ = false, follows_ = false;
 };
 
+// Why no half-step leads over anything of a depth, however low.
+std::string TooShort(const std::vector<TurnedElement>& half_steps, double depth, double clearance) {
+  const TurnedElement* ahead = nullptr;
+  for (const TurnedElement& one : half_steps) {
+    if (one.yaw == 0.0 && (ahead == nullptr || one.room() > ahead->room())) ahead = &one;
+  }
+  const double room = depth + 2.0 * clearance;
+  const std::string deep = Formatted(" and %.3g m deep: ", depth);
+  if (ahead == nullptr || ahead->room() >= room) {
+    return deep + "no half-step here leads over that depth, however low";
+  }
+  return deep + Formatted(
+                    "straight over it a half-step needs %.3g m from sole to sole, the longest here "
+                    "has %.3g m, and sideways none leads over it (longer ones: step_set, "
+                    "half_step.duration_s)",
+                    ahead->before + ahead->behind + room, ahead->way);
+}
+
 }  // namespace
 
 std::string NoHalfStepOver(const Obstacle& obstacle, const RobotModel& robot,
@@ -173,18 +191,12 @@ std::string NoHalfStepOver(const Obstacle& obstacle, const RobotModel& robot,
   const Footprint print = FootprintOf(obstacle);
   if (!obstacle.rests() || volumes.set.on_levels || !(print.top > 0.0)) return "";
   if (print.top >= volumes.set.prototype.via_height) return "";
-  const double room = print.depth() + 2.0 * clearance;
   std::vector<TurnedElement> half_steps = TurnedHalfSteps(robot, volumes.set);
-  const auto widest = std::ranges::max_element(half_steps, {}, &TurnedElement::room);
   const std::string it = Quote(obstacle.name) + " is " + Formatted("%.3g m high", print.top);
-  if (widest->room() < room) {
-    return it + Formatted(
-                    " and %.3g m deep: over it a half-step needs %.3g m from sole to sole, the "
-                    "longest here that way has %.3g m (longer ones: step_set, "
-                    "half_step.duration_s)",
-                    print.depth(), widest->before + widest->behind + room, widest->way);
-  }
+  const std::string too_short = it + TooShort(half_steps, print.depth(), clearance);
+  const double room = print.depth() + 2.0 * clearance;
   std::erase_if(half_steps, [room](const TurnedElement& one) { return one.room() < room; });
+  if (half_steps.empty()) return too_short;
   if (StepsOver(obstacle, print, robot, volumes, clearance).Any(half_steps)) return "";
   // How high it might be, as a box.
   Obstacle box = obstacle;
@@ -200,6 +212,7 @@ std::string NoHalfStepOver(const Obstacle& obstacle, const RobotModel& robot,
     box.X_WO.translation() = Eigen::Vector3d(middle.x(), middle.y(), 0.5 * height);
     (StepsOver(box, print, robot, volumes, clearance).Any(half_steps) ? low : high) = height;
   }
+  if (low == 0.0) return too_short;
   return it + Formatted(
                   ": of its depth of %.3g m half-steps here lead over %.3g m (higher ones: "
                   "half_step.via_height_m)",

@@ -157,7 +157,12 @@ class BestSearch {
     if (monitor.plans().empty()) return {};
     StepPlan plan = monitor.plans().back();
     plan.cost = 0.0;
-    for (int k : plan.ks) plan.cost += graph_.cost(k);
+    StepState state = plan.start;
+    for (int k : plan.ks) {
+      if (graph_.IsForbidden(state, k)) return {};
+      plan.cost += graph_.cost(k);
+      state = graph_.After(state, k);
+    }
     monitor_.Offer(plan);
     return plan;
   }

@@ -38,7 +38,7 @@ std::string SentenceOf(const TemporaryFolder& place, const std::string& scene,
 
 std::string Bar(const std::string& depth, const std::string& height) {
   return "obstacles: [{name: bar, box: {size_m: [" + depth + ", 3, " + height +
-         "]}, pose: {xyz: [0.37, 0, 0]}}]\n";
+         "]}, pose: {xyz: [0.6, 0, 0]}}]\n";
 }
 
 TEST(PlanWords, ABarThatNoHalfStepIsLongEnoughForIsNamedWithBothLengths) {
@@ -47,9 +47,11 @@ TEST(PlanWords, ABarThatNoHalfStepIsLongEnoughForIsNamedWithBothLengths) {
   EXPECT_THAT(sentence, HasSubstr("all that the half-steps reach"));
   EXPECT_THAT(sentence, HasSubstr("; a foot came within "));
   EXPECT_THAT(sentence, HasSubstr(" half-steps refused nearest to the goal meet 'bar'; 'bar' is "
-                                  "0.02 m high and 0.02 m deep: over it a half-step needs "));
-  EXPECT_THAT(sentence, HasSubstr(" m from sole to sole, the longest here that way has 0.2 m "
-                                  "(longer ones: step_set, half_step.duration_s)"));
+                                  "0.02 m high and 0.02 m deep: straight over it a half-step needs "
+                                  "0.2"));
+  EXPECT_THAT(sentence, HasSubstr(" m from sole to sole, the longest here has 0.2 m, and sideways "
+                                  "none leads over it (longer ones: step_set, "
+                                  "half_step.duration_s)"));
 }
 
 TEST(PlanWords, AWallIsTheRoomsMatterNotTheSets) {
