@@ -101,9 +101,12 @@ std::string BlockingWords(const WatchedQuery& watched, const SweptVolumes& volum
   const std::string over =
       NoHalfStepOver(*blocking, place.robot, volumes, limits.demanded_of(MarginFamily::kClearance));
   if (!over.empty()) return text + "; " + over;
+  if (!blocking->rests()) {
+    return text + ", which counts everywhere that it ever is (`planner.moving`)";
+  }
   const double top = BoundsOf(blocking->shape, blocking->X_WO).max().z();
   const double lift = volumes.set.prototype.via_height;
-  if (blocking->rests() && top >= lift) {
+  if (top >= lift) {
     text += Formatted(
         ", which is %.3g m high where feet rise to %.3g m: a way leads past it or there is none",
         top, lift);

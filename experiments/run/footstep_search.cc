@@ -131,7 +131,7 @@ void SearchFootsteps(const FootstepSearch& search, const Place& place, const Pla
   walk->proof_effort += request.proofs();
   if (walk->plan.status == PlanStatus::kSolved) {
     if (search.volumes != nullptr) {
-      Say(DetourWords(request, walk->plan, *search.volumes, place, evaluator.limits()), walk);
+      walk->detour = DetourWords(request, walk->plan, *search.volumes, place, evaluator.limits());
     }
     walk->config = WithFootsteps(config, request.start, walk->plan.footsteps, place);
     return;
