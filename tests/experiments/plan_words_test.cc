@@ -79,10 +79,10 @@ TEST(PlanWords, ADitchIsToldAsNoStepArea) {
 TEST(PlanWords, AWayAroundIsToldWithWhatNoHalfStepLeadsOver) {
   const TemporaryFolder place;
   const std::string bar = "obstacles: [{name: bar, box: {size_m: [0.02, 0.4, 0.04]}, pose: {xyz: ";
-  const PlannedWalk around = PlanAmong(place, bar + "[0.5, 0.1, 0]}}]\n", "0.2", "-0.41");
+  const PlannedWalk around = PlanAmong(place, bar + "[0.5, 0.1, 0]}}]\n", "0.16", "-0.37");
   ASSERT_EQ(around.plan.status, PlanStatus::kSolved) << around.plan.sentence;
   EXPECT_THAT(around.detour, HasSubstr("'bar' is 0.02 m high and 0.02 m deep: straight over it"));
-  const PlannedWalk past = PlanAmong(place, bar + "[0.5, 1.1, 0]}}]\n", "0.2", "-0.41");
+  const PlannedWalk past = PlanAmong(place, bar + "[0.5, 1.1, 0]}}]\n", "0.16", "-0.37");
   ASSERT_EQ(past.plan.status, PlanStatus::kSolved) << past.plan.sentence;
   EXPECT_EQ(past.detour, "");
 }
