@@ -1,5 +1,7 @@
 #include "experiments/config/planning_config.h"
 
+#include <cmath>
+
 namespace halfstep {
 namespace {
 
@@ -12,13 +14,15 @@ constexpr PartName kParts[] = {{"either_foot", GoalPart::kEitherFoot},
                                {"right_foot", GoalPart::kRightFoot},
                                {"mid_feet", GoalPart::kMidFeet}};
 
-struct CostName {
+struct NamedCost {
   const char* name;
   CostKind kind;
 };
-constexpr CostName kCosts[] = {{"steps", CostKind::kSteps},
-                               {"raw_duration", CostKind::kRawDuration},
-                               {"smoothed_duration", CostKind::kSmoothedDuration}};
+constexpr NamedCost kCosts[] = {{"steps", CostKind::kSteps},
+                                {"raw_duration", CostKind::kRawDuration},
+                                {"smoothed_duration", CostKind::kSmoothedDuration}};
+
+constexpr const char* kBest = "best";
 
 template <typename Table>
 std::vector<std::string> NamesOf(const Table& table) {
@@ -70,12 +74,31 @@ GoalRegion GoalConfig::Region() const {
   return region;
 }
 
-StepCost PlannerConfig::Cost() const {
+StepCost PlannerConfig::Cost(bool in_time) const {
   StepCost step_cost = estimate;
-  for (const CostName& row : kCosts) {
-    if (cost == row.name) step_cost.kind = row.kind;
+  for (const NamedCost& row : kCosts) {
+    if (CostName(in_time) == row.name) step_cost.kind = row.kind;
   }
   return step_cost;
+}
+
+std::string PlannerConfig::CostName(bool in_time) const {
+  if (!cost.empty()) return cost;
+  if (name != kBest) return "steps";
+  return in_time ? "raw_duration" : "smoothed_duration";
+}
+
+Termination PlannerConfig::Enough() const {
+  constexpr std::int64_t kUnimproved = 500;
+  const bool best = name == kBest;
+  if (unimproved_nodes == 0.0) return AtFirstPlan();
+  std::vector<Termination> all;
+  if (best) all.push_back(WhenPlannedAfter(improving_effort));
+  if (unimproved_nodes || !best) {
+    all.push_back(WhenNotImprovedFor(unimproved_nodes ? static_cast<std::int64_t>(*unimproved_nodes)
+                                                      : kUnimproved));
+  }
+  return AnyOf(std::move(all));
 }
 
 void DeclareGoal(Fields& fields, GoalConfig* c) {
@@ -121,11 +144,14 @@ void DeclareGoal(Fields& fields, GoalConfig* c) {
 
 void DeclarePlanner(Fields& fields, PlannerConfig* c) {
   fields.Text("name", &c->name,
-              {.meaning = "which planner",
+              {.meaning = "which planner; in episodes `rrt` by default",
                .choices = c->known.Names(),
                .listed_by = "halfstep list planners"});
   fields.Text("cost", &c->cost,
-              {.meaning = "of a plan; the last is an estimate", .choices = NamesOf(kCosts)});
+              {.meaning = "of a plan; the last is an estimate, which plans in time cannot have",
+               .choices = NamesOf(kCosts),
+               .otherwise = "smoothed_duration of `best` (in time raw_duration), else steps",
+               .left_out_empty = true});
   fields.Text(
       "free_by", &c->free_by,
       {.meaning = "what says that a half-step is free: baked volumes, or its proof",
@@ -140,10 +166,19 @@ void DeclarePlanner(Fields& fields, PlannerConfig* c) {
                .left_out_empty = true});
   fields.Integer("max_nodes", &c->max_nodes,
                  {.meaning = "the search ends after them", .min = 0, .max = 1000000000});
-  fields.Integer("unimproved_nodes", &c->unimproved_nodes,
-                 {.meaning = "it ends when so many did not improve the plan; 0: at the first plan",
-                  .min = 0,
-                  .max = 1000000000});
+  fields.OptionalNumber(
+      "unimproved_nodes", &c->unimproved_nodes,
+      {.meaning = "it ends when so many did not improve the plan; 0: at the first plan; none: of "
+                  "`best` it goes by improving_effort, of others 500",
+       .min = 0,
+       .max = 1000000000});
+  if (c->unimproved_nodes && *c->unimproved_nodes != std::floor(*c->unimproved_nodes)) {
+    fields.Complain("unimproved_nodes", "has a fraction (valid: a whole number, or none)");
+  }
+  fields.Number("improving_effort", &c->improving_effort,
+                {.meaning = "`best` looks for better plans until this much work is used",
+                 .min = 0.001,
+                 .max = 86400});
   fields.Number("effort", &c->effort,
                 {.meaning = "it ends after so much work; 1 is about a second of one core of 2026",
                  .min = 0.001,
@@ -175,16 +210,19 @@ void DeclarePlanner(Fields& fields, PlannerConfig* c) {
     f.Number("per_radian_s", &c->estimate.time_per_radian,
              {.meaning = "more for its turn", .unit = "s/rad", .min = 0, .max = 100});
   });
-  fields.Group("rrt", {.meaning = "options of `rrt`"}, [&](Fields& f) {
+  fields.Group("rrt", {.meaning = "options of `rrt`, and of the trees of `best`"}, [&](Fields& f) {
     f.Number("goal_bias", &c->options.rrt.goal_bias,
              {.meaning = "share of the samples in the goal", .min = 0, .max = 1});
     DeclareCells(f, &c->options.rrt.cells);
   });
-  fields.Group("astar", {.meaning = "options of `astar` and `astar/classic`"}, [&](Fields& f) {
-    f.Numbers("weights", &c->options.astar.weights, 0,
-              {.meaning = "of the cost to go, one search after the other", .min = 1, .max = 1000});
-    DeclareCells(f, &c->options.astar.cells);
-  });
+  fields.Group(
+      "astar", {.meaning = "options of `astar` and `astar/classic`; `best` has the cells"},
+      [&](Fields& f) {
+        f.Numbers(
+            "weights", &c->options.astar.weights, 0,
+            {.meaning = "of the cost to go, one search after the other", .min = 1, .max = 1000});
+        DeclareCells(f, &c->options.astar.cells);
+      });
   if (c->options.astar.weights.empty()) {
     fields.Complain("astar", "weights: there are none (valid: numbers from 1 on)");
   }

@@ -26,13 +26,15 @@ struct GoalConfig {
 
 /// The group `planner`.
 struct PlannerConfig {
-  std::string name = "rrt";       ///< one of known.Names()
-  std::string cost = "steps";     ///< a name of CostKind
-  std::string free_by = {};       ///< volumes or certificates; "": as the ground wants it
-  std::string moving = {};        ///< in_time or everywhere; "": as the planner can
-  StepCost estimate;              ///< its numbers; Cost() sets its kind by `cost`
-  int max_nodes = 100000;         ///< ends the search
-  int unimproved_nodes = 500;     ///< ends after these without a better plan; 0: at the first plan
+  std::string name = "best";  ///< one of known.Names()
+  std::string cost = {};      ///< a name of CostKind; "": as `name` wants it
+  std::string free_by = {};   ///< volumes or certificates; "": as the ground wants it
+  std::string moving = {};    ///< in_time or everywhere; "": as the planner can
+  StepCost estimate;          ///< its numbers; Cost() sets its kind by `cost`
+  int max_nodes = 100000;     ///< ends the search
+  /// Ends after these without a better plan; 0: at the first plan; none: as `name` wants it.
+  std::optional<double> unimproved_nodes = {};
+  double improving_effort = 1.0;  ///< of `best`: ends when there is a plan after this much work
   double effort = 60.0;           ///< ends the search (PlanProgress::effort)
   double deadline = 0.0;          ///< an emergency stop by the clock [s]; 0: none
   int max_refusals = 5;           ///< plans that the full check may refuse before planning ends
@@ -40,8 +42,11 @@ struct PlannerConfig {
   PlannerOptions options;         ///< of the planner by that name
   Planners known = Planners::Standard();  ///< those that `name` may name
 
-  /// The cost that plans are compared by.
-  StepCost Cost() const;
+  /// The cost that plans are compared by; `in_time`: of plans in time.
+  StepCost Cost(bool in_time = false) const;
+  std::string CostName(bool in_time = false) const;  ///< its name
+  /// When a plan is good enough.
+  Termination Enough() const;
 };
 
 /// The group `swept_volumes`.

@@ -152,6 +152,8 @@ std::vector<ScaledDefault> ScaledDefaults() {
       {"planner.rrt.cell_m", Law::kLength},
       {"planner.astar.cell_m", Law::kLength},
       {"planner.estimate.step_s", Law::kDuration},
+      {"planner.estimate.per_metre_s", Law::kRate},
+      {"planner.estimate.per_radian_s", Law::kTime},
       {"planner.bounding_box.length_m", Law::kLength},
       {"planner.bounding_box.width_m", Law::kLength},
       {"planner.bounding_box.height_m", Law::kLength},

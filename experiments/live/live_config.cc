@@ -229,6 +229,12 @@ std::vector<SceneMistake> MistakesOf(const LiveOptions& options, const Scene& sc
   return mistakes;
 }
 
+ExperimentConfig EpisodeDefaults() {
+  ExperimentConfig config;
+  config.planner.name = "rrt";
+  return config;
+}
+
 void DeclareFields(Fields& fields, LiveConfig* config, const Scene* scene) {
   DeclareFields(fields, &config->experiment);
   fields.Group("live", {.meaning = "the episode", .required = true}, [&](Fields& f) {

@@ -68,10 +68,14 @@ struct LiveOptions {
 /// scene file has, and are not there until something makes them appear.
 std::vector<std::string> SpareNames(const LiveOptions& options);
 
+/// An experiment of an episode without keys: its planner ends soon.
+ExperimentConfig EpisodeDefaults();
+
 /// An episode as its YAML file says it: an experiment with a goal, and `live:`.
 struct LiveConfig {
-  ExperimentConfig experiment;  ///< robot, scene, goal and all that the walk keeps
-  LiveOptions live;             ///< how it goes on while the world changes
+  ExperimentConfig experiment =
+      EpisodeDefaults();  ///< robot, scene, goal and all that the walk keeps
+  LiveOptions live;       ///< how it goes on while the world changes
 };
 
 /// A key of `live`, or of an event of its script, that does not fit the scene.

@@ -59,9 +59,7 @@ PlanResult Replanner::Search(const std::array<Foothold, 2>& stance,
     const std::int64_t proofs = by_volumes ? 0 : progress.queries;
     return progress.nodes + proofs >= max_nodes ? StopReason::kBudget : StopReason::kGoOn;
   };
-  request.stop = AnyOf({used_up, options.unimproved_nodes == 0
-                                     ? AtFirstPlan()
-                                     : WhenNotImprovedFor(options.unimproved_nodes)});
+  request.stop = AnyOf({used_up, options.Enough()});
   return options.known.Make(options.name, among.world.scene, options.options)
       ->Plan(request, random);
 }

@@ -34,7 +34,7 @@ std::string PlanJson(const PlannedWalk& walk) {
       {"planner", walk.config.planner.name},
       {"seed", walk.config.seed},
       {"status", Name(plan.status)},
-      {"message", plan.sentence},
+      {"message", plan.sentence + (walk.detour.empty() ? "" : "; " + walk.detour)},
       {"goal",
        {{"part", goal.part},
         {"x_m", goal.X_WG.x},
@@ -44,7 +44,7 @@ std::string PlanJson(const PlannedWalk& walk) {
         {"box_m", goal.box},
         {"yaw_tolerance_rad", goal.yaw_tolerance ? nlohmann::ordered_json(*goal.yaw_tolerance)
                                                  : nlohmann::ordered_json(nullptr)}}},
-      {"cost_kind", walk.config.planner.cost},
+      {"cost_kind", walk.config.planner.CostName(walk.in_time)},
       {"cost", number(plan.cost)},
       {"footsteps", plan.footsteps.size()},
       {"places", PlacesJson(walk)},

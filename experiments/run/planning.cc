@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "experiments/run/certificate_query.h"
+#include "experiments/run/footstep_search.h"
 #include "experiments/run/ground_steps.h"
 #include "experiments/run/half_step_forms.h"
 #include "experiments/run/half_step_table.h"
@@ -24,43 +25,6 @@
 #include "wpg/nth.h"
 
 namespace halfstep {
-namespace {
-
-// What a config has to say beside the place seen from above, so that the ground gives the height
-// back.
-LevelChoice SaidInConfig(const Foothold& X_WF, const Place& place) {
-  const Ground& ground = *place.scene.ground;
-  const auto highest = ground.Standing(place.robot.sole_outline, X_WF.Planar());
-  LevelChoice choice;
-  if (!highest || highest->height != X_WF.height) choice.z = X_WF.height;
-  const Foothold again = OnGround(ground, place.robot, X_WF.Planar(), "plan", choice);
-  HALFSTEP_CHECK(again == X_WF,
-                 "a sole at " << X_WF.height << " m, above " << again.height << " m");
-  return choice;
-}
-
-FootstepConfig ToConfig(const Footstep& footstep, const Place& place) {
-  FootstepConfig config;
-  config.foot = Name(footstep.side);
-  config.X_WF = footstep.X_WF.Planar();
-  config.on = SaidInConfig(footstep.X_WF, place);
-  if (footstep.rest > 0.0) config.rest = footstep.rest;
-  if (footstep.rest_on_one_foot > 0.0) config.rest_on_one_foot = footstep.rest_on_one_foot;
-  return config;
-}
-
-Termination StopOf(const PlannerConfig& config, const PlanningHooks& hooks) {
-  std::vector<Termination> all = {OnRequest(hooks.stop), AfterNodes(config.max_nodes),
-                                  AfterEffort(config.effort)};
-  if (config.deadline > 0.0) {
-    all.push_back(AtTime(SteadySeconds, SteadySeconds() + config.deadline));
-  }
-  all.push_back(config.unimproved_nodes == 0 ? AtFirstPlan()
-                                             : WhenNotImprovedFor(config.unimproved_nodes));
-  return AnyOf(std::move(all));
-}
-
-}  // namespace
 
 Acceptance CertifyPlan(const CertifiedFeasibility& test, const HalfStepSequence& sequence) {
   const SuperposedWalk walk(sequence, PlannedMotion(sequence));
@@ -73,42 +37,15 @@ Acceptance CertifyPlan(const CertifiedFeasibility& test, const HalfStepSequence&
 
 namespace {
 
-// The config with the footsteps in place of its goal.
-ExperimentConfig WithFootsteps(ExperimentConfig config, const std::array<Foothold, 2>& start,
-                               const std::vector<Footstep>& footsteps, const Place& place) {
-  config.has_goal = false;
-  config.has_start = true;
-  config.start_left = start[0].Planar();
-  config.start_right = start[1].Planar();
-  config.start_left_on = SaidInConfig(start[0], place);
-  config.start_right_on = SaidInConfig(start[1], place);
-  for (const Footstep& footstep : footsteps) {
-    config.footsteps.push_back(ToConfig(footstep, place));
-  }
-  return config;
-}
-
-// Adds why there is no plan, as far as that can be seen.
-void ExplainNoPlan(const Place& place, const MarginEvaluator& evaluator, PlannedWalk* walk) {
-  PlanResult& plan = walk->plan;
-  if (plan.status == PlanStatus::kStartBlocked) {
-    plan.sentence += MissedInPlace(place.robot, place.scene, walk->config);
-  }
-  if (plan.status != PlanStatus::kInterrupted) walk->inputs = LookAtGoal(walk->config, evaluator);
-  std::string looked;
-  for (const std::string& sentence : walk->inputs) looked += sentence + "; ";
-  plan.sentence = looked + plan.sentence;
-}
-
 // Whether obstacles that move count only where they are at the time. Throws InputError where that
 // was asked for and the planner cannot.
 bool PlansInTime(const PlannerConfig& config, const Scene& scene, const FootstepPlanner& planner) {
   if (!AnythingMoves(scene) || config.moving == "everywhere") return false;
-  const bool same_cost = config.Cost().kind != CostKind::kSmoothedDuration;
+  const bool same_cost = config.Cost(true).kind != CostKind::kSmoothedDuration;
   if (config.moving == "in_time" && !planner.knows_time()) {
     throw InputError({"planner.moving: " + Quote(config.name) +
                       " does not know when obstacles are where (valid: everywhere, or " +
-                      "`planner.name: astar`)"});
+                      "`planner.name: best`)"});
   }
   if (config.moving == "in_time" && !same_cost) {
     throw InputError({"planner.cost: " + Quote(config.cost) +
@@ -128,73 +65,6 @@ bool ByCertificates(const ExperimentConfig& config, const Scene& scene, bool in_
 double ClearanceOf(const ExperimentConfig& config, const RobotModel& robot) {
   const MarginLimits limits = Demandable(config.smoothing.limits, robot);
   return limits.demanded_of(MarginFamily::kClearance) + TubeShift(robot, limits.tube).body;
-}
-
-// A search, with what differs between what says that half-steps are free.
-struct Search {
-  const StepSet& set;
-  const HalfStepQuery& query;
-  std::function<double(const Pose2&, double)> ground = {};  // as in PlanRequest
-  std::function<double()> effort = {};                      // of the query; empty: as is counted
-  const HalfStepTimes* times = nullptr;                     // as in PlanRequest
-};
-
-// Plans with walk->config and writes into it.
-void SearchWith(const Search& search, const Place& place, const PlanningHooks& hooks,
-                PlannedWalk* walk) {
-  const ExperimentConfig& config = walk->config;
-  const Ground& ground = *place.scene.ground;
-  const HalfStepCertifier certifier(place.robot, place.scene, config);
-  const MarginEvaluator evaluator(place.robot, place.scene, config.smoothing.limits);
-  const CertifiedFeasibility test(evaluator, config.smoothing.certification);
-  const HalfStep prototype = PrototypeOf(config);
-
-  PlanRequest request{.start = StartOf(config, place.robot, ground),
-                      .goal = GoalOn(config.goal, ground),
-                      .set = search.set,
-                      .query = search.query,
-                      .times = search.times,
-                      .cost = config.planner.Cost(),
-                      .ground = search.ground};
-  if (HasLevels(ground) && !search.ground) {
-    for (const GroundLevel& level : ground.Levels()) request.levels.push_back(level.height);
-    std::ranges::sort(request.levels);
-  }
-  if (const auto& w = config.planner.workspace; !w.empty()) {
-    request.workspace = {Eigen::Vector2d(w[0], w[1]), Eigen::Vector2d(w[2], w[3])};
-  }
-  request.start_is_free = [&](const HalfStep& up, const Foothold& X_WS) {
-    return up.X_SF.height <= up.via_height && certifier.Certifies(up, X_WS);
-  };
-  request.accepts = [&](const std::vector<Footstep>& footsteps) {
-    return CertifyPlan(
-        test, MakeSequence(request.start, footsteps, prototype.via_lateral, prototype.shape,
-                           MotionModelOf(place.robot, prototype.shape)));
-  };
-  request.max_refusals = config.planner.max_refusals;
-  request.clock = SteadySeconds;
-  request.stop = StopOf(config.planner, hooks);
-  const auto effort = [&search] {
-    return (search.effort ? search.effort() : 0.0) +
-           (search.times != nullptr ? search.times->effort() : 0.0);
-  };
-  if (search.effort || search.times != nullptr) {
-    request.stop = AnyOf({request.stop, [&](const PlanProgress& progress) {
-                            return progress.effort() + effort() >= config.planner.effort
-                                       ? StopReason::kBudget
-                                       : StopReason::kGoOn;
-                          }});
-  }
-  std::mt19937_64 random(static_cast<std::uint64_t>(config.seed));
-  const auto planner =
-      config.planner.known.Make(config.planner.name, place.scene, config.planner.options);
-  walk->plan = planner->Plan(request, random);
-  walk->proof_effort += effort();
-  if (walk->plan.status == PlanStatus::kSolved) {
-    walk->config = WithFootsteps(config, request.start, walk->plan.footsteps, place);
-  } else {
-    ExplainNoPlan(place, evaluator, walk);
-  }
 }
 
 // Whether a foot starts where none may stand; then the walk says so.
@@ -223,7 +93,7 @@ void PlanByCertificates(const Place& place, const Place& resting, const Planning
     times.emplace(place.robot, MotionModelOf(place.robot, set.prototype.shape), set, place.scene,
                   ClearanceOf(walk->config, place.robot));
   }
-  SearchWith(
+  SearchFootsteps(
       {.set = set,
        .query = query,
        .ground = [&query](const Pose2& X_WF, double from) { return query.HeightAt(X_WF, from); },
@@ -236,7 +106,7 @@ void PlanByCertificates(const Place& place, const Place& resting, const Planning
 void PlanByForms(const Place& place, const PlanningHooks& hooks, PlannedWalk* walk) {
   constexpr int kMost = 3;
   if (StartsOnNoStep(place, walk)) return;
-  const Place resting = walk->in_time ? Place{place.robot, RestingPart(place.scene)} : place;
+  const Place resting = walk->in_time ? Resting(place) : place;
   const ExperimentConfig config = walk->config;
   HalfStepForms found;
   for (int i = 0; i < kMost && !hooks.stop.stop_requested(); ++i) {
@@ -288,14 +158,16 @@ void PlanByVolumes(const Place& place, const PlanningHooks& hooks, PlannedWalk* 
   };
   if (!walk->in_time) {
     const SweptVolumeQuery query = query_on(place.scene);
-    return SearchWith({.set = volumes.set, .query = query}, place, hooks, walk);
+    return SearchFootsteps({.set = volumes.set, .query = query, .volumes = &volumes}, place, hooks,
+                           walk);
   }
   const SweptVolumeQuery resting = query_on(RestingPart(place.scene)),
                          always = query_on(MovingPart(place.scene));
   const ObstacleTimes times(place.robot, MotionModelOf(place.robot, volumes.set.prototype.shape),
                             volumes.set, place.scene, ClearanceOf(walk->config, place.robot),
                             &always);
-  SearchWith({.set = volumes.set, .query = resting, .times = &times}, place, hooks, walk);
+  SearchFootsteps({.set = volumes.set, .query = resting, .times = &times, .volumes = &volumes},
+                  place, hooks, walk);
 }
 
 }  // namespace
@@ -309,8 +181,8 @@ PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
       config.planner.known.Make(config.planner.name, place.scene, config.planner.options);
   if (HasLevels(ground) && !planner->knows_levels()) {
     throw InputError({"planner.name: " + Quote(config.planner.name) +
-                      " plans at one height only, and the scene's ground has levels (valid: rrt, "
-                      "astar, astar/classic)"});
+                      " plans at one height only, and the scene's ground has levels (valid: best, "
+                      "rrt, astar, astar/classic)"});
   }
   GoalOn(config.goal, ground);  // complains before anything is computed
   const bool in_time = PlansInTime(config.planner, place.scene, *planner);

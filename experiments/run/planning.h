@@ -29,6 +29,8 @@ struct PlannedWalk {
   BakedHalfSteps half_steps;
   /// The keys of half_step that differ from the config's, since its own do not cross the ground.
   std::string changed_half_step = {};
+  /// Of a way that is longer than the straight one: what no half-step leads over; "": nothing.
+  std::string detour = {};
   double proof_effort = 0.0;  ///< of half-steps that were called free by proofs (Work::effort)
   bool on_levels = false;     ///< whether the scene's ground has levels, so that heights are told
   bool in_time = false;       ///< whether obstacles that move counted only where they are then

@@ -69,6 +69,9 @@ struct PlanRequest {
   /// Asked about each plan before it is returned, best first. Empty: every plan is accepted.
   std::function<Acceptance(const std::vector<Footstep>&)> accepts = {};
   int max_refusals = 20;  ///< refusals after which planning ends with kRefused
+  /// Effort of the proofs that `query` made so far, where these take longer than a query of volumes
+  /// (PlanProgress::kQuery). Empty: none.
+  std::function<double()> proofs = {};
   Termination stop = {};  ///< empty: only when the planner ends by itself
   Clock clock = {};       ///< for the times of the result only; empty: they are NaN
 };

@@ -43,11 +43,10 @@ TreeSample Sample(const StepGraph& graph, double goal_bias, std::mt19937_64& ran
   return sample;
 }
 
-// Whether the tree found a plan, or ended without one.
-enum class TreeEnd { kPlan, kStopped, kExhausted };
+}  // namespace
 
 TreeEnd GrowTree(const std::vector<StepState>& starts, const RrtOptions& options, StepGraph* graph,
-                 PlanMonitor* monitor, TimedEdges* edges, std::mt19937_64& random) {
+                 PlanMonitor* monitor, TimedEdges* edges, std::mt19937_64& random, StepPlan* plan) {
   StepTree tree({}, options.cells, graph, monitor, edges);
   StepTree::Growth growth = StepTree::Growth::kTrapped;
   for (const StepState& start : starts) {
@@ -64,9 +63,15 @@ TreeEnd GrowTree(const std::vector<StepState>& starts, const RrtOptions& options
     if (tree.IsExhausted()) return TreeEnd::kExhausted;
     growth = tree.Grow(Sample(*graph, options.goal_bias, random));
   }
-  monitor->Offer(tree.arrival());
+  *plan = tree.arrival();
   return TreeEnd::kPlan;
 }
+
+namespace {
+
+constexpr const char* kFirstArrivals =
+    "all was searched that the half-steps reach inside the workspace, but not every arrival at a "
+    "place that was reached before (`planner.name: best` looks at these)";
 
 // No plan from these states can be cheaper.
 bool IsCheapest(double cost, const std::vector<StepState>& starts, const StepGraph& graph) {
@@ -87,8 +92,13 @@ PlanResult FootstepRrt::Plan(const PlanRequest& request, std::mt19937_64& random
           in_time.emplace(*request.times, request.set.prototype.duration, graph);
         }
         TimedEdges* edges = in_time ? &*in_time : nullptr;
-        const TreeEnd end = GrowTree(starts, options_, graph, monitor, edges, random);
-        if (end != TreeEnd::kPlan) return SearchEnd{.exhausted = end == TreeEnd::kExhausted};
+        StepPlan first;
+        const TreeEnd end = GrowTree(starts, options_, graph, monitor, edges, random, &first);
+        if (end != TreeEnd::kPlan) {
+          return SearchEnd{.exhausted = end == TreeEnd::kExhausted,
+                           .sentence = edges == nullptr ? "" : kFirstArrivals};
+        }
+        monitor->Offer(std::move(first));
         while (!IsCheapest(monitor->best_cost(), starts, *graph)) {
           if (monitor->Stop()) return SearchEnd{};
           const StepPlan best = monitor->plans().back();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "planner/search/footstep_planner.h"
+#include "planner/search/plan_search.h"
 #include "planner/search/pose_cells.h"
 
 namespace halfstep {
@@ -14,6 +15,14 @@ struct RrtOptions {
   /// narrow way out of it is missed.
   PoseCells cells = {.position = 0.03, .yaw = 0.1};
 };
+
+/// How a tree ended: it found a plan, was stopped, or nothing was left to try.
+enum class TreeEnd { kPlan, kStopped, kExhausted };
+
+/// Grows a tree from `starts` to the goal until one of these, in time with `edges`; null: not in
+/// time. `plan` is written with kPlan.
+TreeEnd GrowTree(const std::vector<StepState>& starts, const RrtOptions& options, StepGraph* graph,
+                 PlanMonitor* monitor, TimedEdges* edges, std::mt19937_64& random, StepPlan* plan);
 
 /// Rapidly-exploring random tree over a discrete set of elements, after [LaValle2001] and
 /// [Perrin2012]: the node nearest to a random pose takes the free element that leads nearest to it.

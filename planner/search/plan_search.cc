@@ -24,18 +24,12 @@ void CheckRequest(const PlanRequest& request) {
                  "in time, elements cost the same");
 }
 
-std::vector<StepState> StatesOf(const StepGraph& graph, const StepPlan& plan) {
-  std::vector<StepState> states = {plan.start};
-  for (int k : plan.ks) states.push_back(graph.After(states.back(), k));
-  return states;
-}
-
 // Asks about the plans, the best first. What was refused is forbidden to later searches.
 const StepPlan* FirstAccepted(const PlanRequest& request, const PlanMonitor& monitor,
                               StepGraph* graph, int* refusals) {
   for (auto plan = monitor.plans().rbegin(); plan != monitor.plans().rend(); ++plan) {
     if (!request.accepts) return &*plan;
-    const std::vector<StepState> states = StatesOf(*graph, *plan);
+    const std::vector<StepState> states = StatesOf(*graph, *plan).states;
     bool forbidden = false;
     for (size_t j = 0; j < plan->ks.size(); ++j) {
       forbidden = forbidden || graph->IsForbidden(states[j], plan->ks[j]);
@@ -109,8 +103,9 @@ void Explain(const SearchEnd& end, PlanResult* result) {
 bool PlanMonitor::Stop() {
   if (reason_ != StopReason::kGoOn) return true;
   progress_.queries = graph_.queries();
+  if (request_.proofs) progress_.proofs = request_.proofs();
   reason_ = request_.stop ? request_.stop(progress_) : AtFirstPlan()(progress_);
-  return reason_ != StopReason::kGoOn;
+  return reason_ != StopReason::kGoOn || progress_.effort() >= turn_ends_;
 }
 
 void PlanMonitor::CountNode() {
@@ -135,7 +130,21 @@ void PlanMonitor::StartOver() {
   progress_.cost = std::numeric_limits<double>::infinity();
   progress_.nodes_since_improvement = 0;
   reason_ = StopReason::kGoOn;
+  turn_ends_ = std::numeric_limits<double>::infinity();
   plans_.clear();
+}
+
+PlanStates StatesOf(const StepGraph& graph, const StepPlan& plan, const TimedEdges* edges) {
+  PlanStates path{{plan.start}, {0.0}};
+  for (size_t j = 0; j < plan.ks.size(); ++j) {
+    path.states.push_back(graph.After(path.states.back(), plan.ks[j]));
+    path.costs.push_back(path.costs.back() + graph.cost(plan.ks[j]));
+    if (edges == nullptr) continue;
+    const bool last = j + 1 == plan.ks.size();
+    path.costs.back() =
+        last ? edges->CostOfLanding(plan.timed[j]) : edges->CostOf(plan.timed[j].to);
+  }
+  return path;
 }
 
 PlanResult PlanWith(const PlanRequest& request, const std::vector<int>& elements,

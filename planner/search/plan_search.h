@@ -19,6 +19,16 @@ struct StepPlan {
   std::vector<TimedEdge> timed = {};
 };
 
+/// The states along a plan, the last of them its landing on the goal, and what it costs to get to
+/// each.
+struct PlanStates {
+  std::vector<StepState> states;  ///< one more than the plan has elements
+  std::vector<double> costs;      ///< of PlanRequest::cost, as many
+};
+/// In time with `edges`; null: not in time, or the costs do not matter.
+PlanStates StatesOf(const StepGraph& graph, const StepPlan& plan,
+                    const TimedEdges* edges = nullptr);
+
 /// Counts nodes, asks the termination and keeps the plans found, on behalf of one call of Plan.
 class PlanMonitor {
  public:
@@ -28,6 +38,11 @@ class PlanMonitor {
 
   /// Whether to stop; true from then on. To be asked before every node.
   bool Stop();
+  /// From now on Stop() is also true after that much more effort, until the next call of it:
+  /// several searches then take turns. ∞: as it was at first.
+  void Allow(double effort) { turn_ends_ = progress_.effort() + effort; }
+  /// Whether planning is over, not only this search's turn.
+  bool stopped() const { return reason_ != StopReason::kGoOn; }
   void CountNode();  ///< to be called for each node
   /// Keeps a plan if it is cheaper than all before, and returns whether it is.
   bool Offer(StepPlan plan);
@@ -48,6 +63,7 @@ class PlanMonitor {
   const StepGraph& graph_;
   PlanProgress progress_;
   StopReason reason_ = StopReason::kGoOn;
+  double turn_ends_ = std::numeric_limits<double>::infinity();
   std::vector<StepPlan> plans_;
   double begin_ = request_.clock ? request_.clock() : 0.0;
   double time_to_first_ = std::numeric_limits<double>::quiet_NaN();

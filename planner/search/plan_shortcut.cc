@@ -11,32 +11,13 @@
 namespace halfstep {
 namespace {
 
-// A plan with all its states and costs up to them; the last state is the landing on the goal.
-struct Unrolled {
-  std::vector<StepState> states;
-  std::vector<double> costs;
-};
-
-Unrolled Unroll(const StepGraph& graph, const StepPlan& plan, const TimedEdges* edges) {
-  Unrolled path{{plan.start}, {0.0}};
-  for (size_t j = 0; j < plan.ks.size(); ++j) {
-    path.states.push_back(graph.After(path.states.back(), plan.ks[j]));
-    path.costs.push_back(path.costs.back() + graph.cost(plan.ks[j]));
-    if (edges == nullptr) continue;
-    const bool last = j + 1 == plan.ks.size();
-    path.costs.back() =
-        last ? edges->CostOfLanding(plan.timed[j]) : edges->CostOf(plan.timed[j].to);
-  }
-  return path;
-}
-
 // What a stretch begins with: states, in time with when they are reached.
 struct Roots {
   std::vector<StepState> states;
   std::vector<TimedState> timed;
 };
 
-Roots RootsOf(const StepPlan& plan, const Unrolled& path, size_t a,
+Roots RootsOf(const StepPlan& plan, const PlanStates& path, size_t a,
               const std::vector<StepState>& starts, const TimedEdges* edges) {
   Roots roots;
   if (edges == nullptr) {
@@ -52,7 +33,7 @@ Roots RootsOf(const StepPlan& plan, const Unrolled& path, size_t a,
 }
 
 // The stretch from state a to near state b (the last one: to the goal), cheaper than it was.
-std::optional<StepPlan> PlanStretch(const Roots& roots, const Unrolled& path, size_t a, size_t b,
+std::optional<StepPlan> PlanStretch(const Roots& roots, const PlanStates& path, size_t a, size_t b,
                                     const PoseCells& cells, StepGraph* graph, PlanMonitor* monitor,
                                     TimedEdges* edges, std::mt19937_64& random) {
   constexpr double kRoom = 0.4;
@@ -90,7 +71,7 @@ std::optional<StepPlan> PlanStretch(const Roots& roots, const Unrolled& path, si
 
 // Adds an element to a plan that has come to `state`, if it is free.
 bool TakeElement(const StepState& state, int k, bool last, StepGraph* graph, TimedEdges* edges,
-            StepPlan* plan) {
+                 StepPlan* plan) {
   if (edges == nullptr) {
     if (!graph->DownIsFree(state, k) || (!last && !graph->UpIsFree(state, k))) return false;
     plan->ks.push_back(k);
@@ -112,8 +93,8 @@ bool TakeElement(const StepState& state, int k, bool last, StepGraph* graph, Tim
 }
 
 // From a state to the goal along old landings, each followed by the free element nearest to it.
-bool Follow(const Unrolled& path, size_t from, StepState state, StepGraph* graph, TimedEdges* edges,
-            StepPlan* plan) {
+bool Follow(const PlanStates& path, size_t from, StepState state, StepGraph* graph,
+            TimedEdges* edges, StepPlan* plan) {
   std::vector<Foothold> landings;
   std::vector<std::pair<double, int>> order;
   for (size_t j = from + 1; j < path.states.size(); ++j) {
@@ -147,17 +128,17 @@ bool Follow(const Unrolled& path, size_t from, StepState state, StepGraph* graph
 
 }  // namespace
 
-bool TryShortcut(const StepPlan& plan, const std::vector<StepState>& starts, const PoseCells& cells,
-                 StepGraph* graph, PlanMonitor* monitor, TimedEdges* edges,
-                 std::mt19937_64& random) {
-  const Unrolled path = Unroll(*graph, plan, edges);
+std::optional<StepPlan> FindShortcut(const StepPlan& plan, const std::vector<StepState>& starts,
+                                     const PoseCells& cells, StepGraph* graph, PlanMonitor* monitor,
+                                     TimedEdges* edges, std::mt19937_64& random) {
+  const PlanStates path = StatesOf(*graph, plan, edges);
   const int count = static_cast<int>(plan.ks.size());
   const int a = Pick(count, random);
   const int b = a + 1 + Pick(count - a, random);
   const auto ia = static_cast<size_t>(a), ib = static_cast<size_t>(b);
   const Roots roots = RootsOf(plan, path, ia, starts, edges);
   const auto stretch = PlanStretch(roots, path, ia, ib, cells, graph, monitor, edges, random);
-  if (!stretch) return false;
+  if (!stretch) return std::nullopt;
   StepPlan candidate{.start = a == 0 ? stretch->start : plan.start,
                      .ks = {plan.ks.begin(), plan.ks.begin() + a},
                      .cost = stretch->cost};
@@ -168,8 +149,15 @@ bool TryShortcut(const StepPlan& plan, const std::vector<StepState>& starts, con
   }
   StepState state = stretch->start;
   for (int k : stretch->ks) state = graph->After(state, k);
-  if (b < count && !Follow(path, ib, state, graph, edges, &candidate)) return false;
-  return monitor->Offer(std::move(candidate));
+  if (b < count && !Follow(path, ib, state, graph, edges, &candidate)) return std::nullopt;
+  return candidate;
+}
+
+bool TryShortcut(const StepPlan& plan, const std::vector<StepState>& starts, const PoseCells& cells,
+                 StepGraph* graph, PlanMonitor* monitor, TimedEdges* edges,
+                 std::mt19937_64& random) {
+  std::optional<StepPlan> found = FindShortcut(plan, starts, cells, graph, monitor, edges, random);
+  return found && monitor->Offer(std::move(*found));
 }
 
 double Uniform(double lower, double upper, std::mt19937_64& random) {

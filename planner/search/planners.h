@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "planner/search/best_planner.h"
 #include "planner/search/bounding_box_planner.h"
 #include "planner/search/footstep_astar.h"
 #include "planner/search/footstep_planner.h"
@@ -15,8 +16,8 @@ namespace halfstep {
 
 /// The options of all planners; each takes its own.
 struct PlannerOptions {
-  RrtOptions rrt;                   ///< of `rrt`
-  StepSearchOptions astar;          ///< of astar and astar/classic
+  RrtOptions rrt;                   ///< of `rrt`, and of the trees of `best`
+  StepSearchOptions astar;          ///< of astar and astar/classic; the cells of `best`
   BoundingBoxOptions bounding_box;  ///< of `bounding_box`
 };
 
@@ -35,7 +36,7 @@ struct NamedPlanner {
 /// hands it to what reads configs.
 class Planners {
  public:
-  /// rrt, astar, astar/classic, bounding_box.
+  /// best, rrt, astar, astar/classic, bounding_box.
   static Planners Standard();
   /// These are built in: Add() replaces none of them.
   explicit Planners(std::vector<NamedPlanner> built_in);

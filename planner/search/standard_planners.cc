@@ -9,7 +9,11 @@ Planners Planners::Standard() {
     };
   };
   return Planners(
-      {{"rrt", "random tree over all half-steps, then short-cuts",
+      {{"best", "a way by random trees and A*, then better ones until the work is used",
+        [](const Scene&, const PlannerOptions& options) {
+          return std::make_unique<BestPlanner>(options.rrt, options.astar.cells);
+        }},
+       {"rrt", "random tree over all half-steps, then short-cuts",
         [](const Scene&, const PlannerOptions& options) {
           return std::make_unique<FootstepRrt>(options.rrt);
         }},

@@ -16,9 +16,9 @@ struct StepCost {
   /// kSmoothedDuration: an estimate, to be fitted to smoothed walks. A step takes `step_time` at
   /// least, and longer when its swing foot travels far or turns: `time_per_metre` times its way on
   /// the floor from place to via point to place, `time_per_radian` times its turns.
-  double step_time = 1.15;       ///< [s] > 0
-  double time_per_metre = 0.4;   ///< [s/m] ≥ 0
-  double time_per_radian = 0.1;  ///< [s/rad] ≥ 0
+  double step_time = 0.89;        ///< [s] > 0
+  double time_per_metre = 1.06;   ///< [s/m] ≥ 0
+  double time_per_radian = 0.06;  ///< [s/rad] ≥ 0
 
   /// The cost of each element: 1, 2T [s] or the estimate [s]. An element's way is that of its down
   /// half-step and of the up half-step that follows it.

@@ -71,6 +71,8 @@ class StepGraph {
   void Forbid(const StepState& from, int k);
   bool IsForbidden(const StepState& from, int k) const;  ///< whether Forbid() was called so
   std::int64_t queries() const { return queries_; }      ///< of half-steps, so far
+  /// Counts queries that were made elsewhere on behalf of the same planning.
+  void AddQueries(std::int64_t more) { queries_ += more; }
 
   /// Whether there is a level at that height [m], somewhere; true where all is at one height. With
   /// PlanRequest::ground: whether the height was found.

@@ -35,6 +35,13 @@ Termination WhenNotImprovedFor(std::int64_t nodes) {
   };
 }
 
+Termination WhenPlannedAfter(double effort) {
+  return [effort](const PlanProgress& progress) {
+    return progress.has_plan() && progress.effort() >= effort ? StopReason::kEnough
+                                                              : StopReason::kGoOn;
+  };
+}
+
 Termination OnRequest(std::stop_token token) {
   return [token = std::move(token)](const PlanProgress&) {
     return token.stop_requested() ? StopReason::kInterrupted : StopReason::kGoOn;

@@ -14,13 +14,15 @@ struct PlanProgress {
   std::int64_t queries = 0;                               ///< of half-steps, so far
   double cost = std::numeric_limits<double>::infinity();  ///< of the best plan; ∞: none yet
   std::int64_t nodes_since_improvement = 0;  ///< since a plan got better; 0 while there is none
+  double proofs = 0.0;  ///< effort of queries that prove what they answer (PlanRequest::proofs)
   /// Whether there is one.
   bool has_plan() const { return cost < std::numeric_limits<double>::infinity(); }
 
   /// Nodes and queries in one unit, that of Work::effort: 1 is about a second of one core of 2026.
   /// Source: planner/README.md, "Termination".
   double effort() const {
-    return 1e-6 * (kNode * static_cast<double>(nodes) + kQuery * static_cast<double>(queries));
+    return proofs +
+           1e-6 * (kNode * static_cast<double>(nodes) + kQuery * static_cast<double>(queries));
   }
   static constexpr double kNode = 15.0;  ///< what a node takes [µs]
   static constexpr double kQuery = 1.0;  ///< what a query takes [µs]
@@ -52,6 +54,8 @@ Termination AfterEffort(double effort);
 Termination AtFirstPlan();
 /// kEnough when there is a plan and that many nodes did not improve it.
 Termination WhenNotImprovedFor(std::int64_t nodes);
+/// kEnough when there is a plan and PlanProgress::effort is that or more.
+Termination WhenPlannedAfter(double effort);
 /// kInterrupted when a stop was requested.
 Termination OnRequest(std::stop_token token);
 /// The first answer of them other than kGoOn.

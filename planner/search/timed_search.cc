@@ -212,7 +212,8 @@ bool SearchStepsInTime(const std::vector<StepState>& starts,
   for (const double weight : options.weights) {
     const SearchInTime::End end =
         SearchInTime(to_go, weight, options.cells, request, graph, monitor).Run(starts);
-    if (end == SearchInTime::End::kExhausted) return true;
+    // With a larger weight an earlier arrival may have been left out.
+    if (end == SearchInTime::End::kExhausted && weight <= 1.0) return true;
     if (end == SearchInTime::End::kStopped || monitor->Stop()) return false;
   }
   return true;

@@ -69,6 +69,30 @@ TEST(PlanInTime, BehindACartThatIsGoneCertifiedVerifiedAndNotWhenItStaysLonger) 
   EXPECT_THAT(late.err + late.out, HasSubstr("cart"));
 }
 
+TEST(PlanInTime, TheDefaultPlannerKnowsTimeUnlessItsCostIsAnEstimate) {
+  const TemporaryFolder place;
+  WriteText(place / "scene.yaml", WaitingCart(12.0));
+  const std::string config = WriteText(place / "walk.yaml", ConfigText());
+  const auto plan = [&](const std::string& set) {
+    const Outcome outcome =
+        Halfstep(place.path(), {"plan", config, "--json", "--set", "planner.name=best", "--set",
+                                "planner.unimproved_nodes=none", "--set",
+                                "planner.improving_effort=0.1", "--set", set});
+    return nlohmann::json::parse(outcome.out);
+  };
+  const auto best = plan("seed=1");
+  EXPECT_EQ(best.at("status"), "solved");
+  EXPECT_EQ(best.at("cost_kind"), "raw_duration");
+  EXPECT_THAT(best.at("message").get<std::string>(), HasSubstr(", at rest for "));
+  const auto earliest = nlohmann::json::parse(
+      Halfstep(place.path(), {"plan", config, "--json", "--set", "planner.unimproved_nodes=500",
+                              "--set", "planner.cost=raw_duration"})
+          .out);
+  EXPECT_EQ(best.at("cost"), earliest.at("cost"));  // of `astar`
+  const auto everywhere = plan("planner.cost=smoothed_duration");
+  EXPECT_EQ(everywhere.at("status"), "no_plan");
+}
+
 TEST(PlanInTime, WithoutAnythingThatMovesTablesAndPlansHaveNoRests) {
   const TemporaryFolder place;
   WriteText(place / "scene.yaml", "obstacles: []\n");
@@ -90,7 +114,7 @@ TEST(PlanInTime, SaysWhatCannotPlanInTime) {
   };
   EXPECT_THAT(refusal("planner.name=bounding_box"),
               HasSubstr("planner.moving: 'bounding_box' does not know when obstacles are where "
-                        "(valid: everywhere, or `planner.name: astar`)"));
+                        "(valid: everywhere, or `planner.name: best`)"));
   EXPECT_THAT(refusal("planner.cost=smoothed_duration"), HasSubstr("planner.cost: "));
   WriteText(place / "first.yaml",
             "robot: hrp2\nscene: none\nfootsteps: [{foot: left, x_m: 0.2, y_m: 0.1, rest_s: 1}]\n");

@@ -17,11 +17,12 @@ namespace {
 
 constexpr double kTick = 0.25;  // [s]
 
-// Bands of x that are shut for some times, which are multiples of kTick. Soles at rest or at their
-// via points must not be in them then.
+// Bands of x, as far as `y_min`, that are shut for some times, which are multiples of kTick. Soles
+// at rest or at their via points must not be in them then.
 struct ShutBand {
   double x_min, x_max;
   TimeInterval shut;
+  double y_min = -10.0;
 };
 
 class BandTimes : public HalfStepTimes {
@@ -32,25 +33,29 @@ class BandTimes : public HalfStepTimes {
   TimeIntervals DownStarts(int i, Side support, const Foothold& X_WS,
                            const Foothold& X_WF) const override {
     const Pose2 via = X_WS.Planar() * set_.Down(i, support).via();
-    return Open({X_WS.x, via.x, X_WF.x}, set_.prototype.duration);
+    return Open({X_WS.Planar(), via, X_WF.Planar()}, set_.prototype.duration);
   }
   TimeIntervals UpStarts(int i, Side support, const Foothold& X_WS,
                          const Foothold& X_WF) const override {
     const Pose2 via = X_WF.Planar() * set_.Up(i, support).via();
-    return Open({X_WS.x, via.x, X_WF.x}, set_.prototype.duration);
+    return Open({X_WS.Planar(), via, X_WF.Planar()}, set_.prototype.duration);
   }
   TimeIntervals OnBothFeet(int, Side, const Foothold& X_WS, const Foothold& X_WF) const override {
-    return Open({X_WS.x, X_WF.x}, 0.0);
+    return Open({X_WS.Planar(), X_WF.Planar()}, 0.0);
   }
-  TimeIntervals OnOneFoot(Side, const Foothold& X_WS) const override { return Open({X_WS.x}, 0.0); }
+  TimeIntervals OnOneFoot(Side, const Foothold& X_WS) const override {
+    return Open({X_WS.Planar()}, 0.0);
+  }
   double settled() const override { return 100.0; }
 
  private:
   // When something that takes `lasts` may begin.
-  TimeIntervals Open(const std::vector<double>& xs, double lasts) const {
+  TimeIntervals Open(const std::vector<Pose2>& soles, double lasts) const {
     TimeIntervals open = {{}};
     for (const ShutBand& band : bands_) {
-      if (std::ranges::none_of(xs, [&](double x) { return x > band.x_min && x < band.x_max; })) {
+      if (std::ranges::none_of(soles, [&](const Pose2& sole) {
+            return sole.x > band.x_min && sole.x < band.x_max && sole.y > band.y_min;
+          })) {
         continue;
       }
       TimeIntervals rest;
@@ -191,6 +196,7 @@ TEST(PlanningInTime, ArrivesAsEarlyAsABruteSearchInTimeAndNeverWhereItIsShut) {
     const PlanResult plan = PlanBy("astar", request);
     ASSERT_EQ(plan.status == PlanStatus::kSolved, std::isfinite(earliest)) << draw;
     if (!std::isfinite(earliest)) {
+      EXPECT_EQ(PlanBy("best", request).status, PlanStatus::kNoPlan) << draw;
       ++none;
       continue;
     }
@@ -214,6 +220,12 @@ TEST(PlanningInTime, ArrivesAsEarlyAsABruteSearchInTimeAndNeverWhereItIsShut) {
       }
       state = {X_WF, Opposite(state.support)};
     }
+    // As early where random trees and A* take turns.
+    PlanRequest with_turns = request;
+    with_turns.stop = AnyOf({WhenPlannedAfter(0.2), AfterEffort(10.0)});
+    const PlanResult best = PlanBy("best", with_turns);
+    ASSERT_EQ(best.status, PlanStatus::kSolved) << best.sentence;
+    EXPECT_NEAR(TimesOf(best.footsteps).back().end, earliest, 1e-9) << draw;
     // A tree finds a way as well, no earlier.
     PlanRequest quick = request;
     quick.stop = AnyOf({AtFirstPlan(), AfterNodes(2000)});
@@ -227,10 +239,30 @@ TEST(PlanningInTime, ArrivesAsEarlyAsABruteSearchInTimeAndNeverWhereItIsShut) {
   EXPECT_GT(none, 0);
 }
 
+// Around a door that opens soon one comes earlier, and in time for a door that shuts for good.
+TEST(PlanningInTime, WhoCameFirstInTheSearchDoesNotHideWhoComesEarlier) {
+  StepSet set = FewSteps();
+  set.placements.push_back(Foothold::Level({0.0, -0.4, 0.0}));
+  const FlatQuery query(set, {});
+  int solved = 0;
+  for (double opens = 20.0; opens <= 26.0; opens += 2.0) {
+    const BandTimes times(set, {{0.25, 0.45, {0.0, opens}, -0.5}, {0.55, 0.75, {opens, INFINITY}}});
+    PlanRequest request = RequestAlong(set, query, times);
+    request.workspace = {Eigen::Vector2d(-0.5, -1.4), Eigen::Vector2d(1.3, 0.6)};
+    const double earliest = EarliestByTicks(request);
+    for (const char* planner : {"astar", "best"}) {
+      const PlanResult plan = PlanBy(planner, request);
+      EXPECT_EQ(plan.status == PlanStatus::kSolved, std::isfinite(earliest)) << planner << opens;
+    }
+    solved += std::isfinite(earliest);
+  }
+  EXPECT_GT(solved, 0);
+}
+
 TEST(PlanningInTime, TheSameRequestGivesTheSamePlanAndShutNowhereTheUntimedOne) {
   const StepSet set = PlausibleSet();
   const FlatQuery query(set, WallWithGap(0.3, 0.8));
-  for (const char* planner : {"astar", "rrt"}) {
+  for (const char* planner : {"astar", "rrt", "best"}) {
     const BandTimes open(set, {}), shut(set, {{0.6, 0.8, {2.0, 17.0}}});
     PlanRequest request = RequestTo({2.0, 0.0, 0.0}, set, query);
     request.times = &open;

@@ -1,0 +1,120 @@
+#include "planner/search/best_planner.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "planner/search/least_cost.h"
+#include "planner/search/plan_search.h"
+#include "tests/planner/flat_world.h"
+
+namespace halfstep {
+namespace {
+
+PlanResult PlanBest(PlanRequest request, double effort, std::uint64_t seed = 1) {
+  request.cost.kind = CostKind::kSmoothedDuration;
+  request.stop = AnyOf({WhenPlannedAfter(effort), AfterEffort(10.0)});
+  std::mt19937_64 random(seed);
+  return BestPlanner({}, {}).Plan(request, random);
+}
+
+// Along plans of every cost, what is left of a plan never costs less than the bound.
+TEST(LeastCost, NeverExceedsWhatAPlanCosts) {
+  const StepSet set = PlausibleSet();
+  const FlatQuery query(set, {});
+  int states = 0, above_half = 0;
+  for (const CostKind kind : {CostKind::kSteps, CostKind::kSmoothedDuration}) {
+    for (const GoalPart part : {GoalPart::kEitherFoot, GoalPart::kLeftFoot, GoalPart::kMidFeet}) {
+      for (int trial = 0; trial < 3; ++trial) {
+        const double angle = 2.1 * trial;
+        PlanRequest request =
+            RequestTo({1.2 * std::cos(angle), 1.2 * std::sin(angle), angle}, set, query);
+        request.goal.part = part;
+        if (trial % 2 == 1) request.goal.yaw_tolerance = 0.3;
+        request.cost.kind = kind;
+        request.stop = AnyOf({WhenPlannedAfter(0.02), AfterEffort(1.0)});
+        std::mt19937_64 random(1);
+        const PlanResult plan = BestPlanner({}, {}).Plan(request, random);
+        ASSERT_EQ(plan.status, PlanStatus::kSolved) << plan.sentence;
+        const StepGraph graph(request, AllElements(set));
+        const LeastCost least(set, graph);
+        const Side support = Opposite(plan.footsteps[0].side);
+        StepState state{request.start[static_cast<size_t>(Index(support))], support};
+        double left = plan.cost;
+        for (const int k : plan.elements) {
+          EXPECT_LE(least.From(state), left + 1e-9) << "kind " << static_cast<int>(kind);
+          ++states;
+          above_half += static_cast<int>(least.From(state) > 0.5 * left);
+          left -= graph.cost(k);
+          state = graph.After(state, k);
+        }
+      }
+    }
+  }
+  EXPECT_GT(above_half, states / 2);  // and it is no empty claim
+}
+
+TEST(BestPlanner, FindsTheWayThroughAGapOnTheFarSide) {
+  const StepSet set = PlausibleSet();
+  const FlatQuery query(set, WallWithGap(0.9, 0.8));
+  PlanRequest request = RequestTo({2.0, 0.0, 0.0}, set, query);
+  request.workspace = {Eigen::Vector2d(-0.6, -1.45), Eigen::Vector2d(2.6, 1.45)};
+  request.start_is_free = [&query](const HalfStep& up, const Foothold& X_WS) {
+    return query.StartIsFree(up, X_WS);
+  };
+  const PlanResult best = PlanBest(request, 0.25);
+  ASSERT_EQ(best.status, PlanStatus::kSolved) << best.sentence;
+  for (const std::uint64_t seed : {2}) {
+    const PlanResult soon = PlanBest(request, 0.1, seed);
+    ASSERT_EQ(soon.status, PlanStatus::kSolved) << soon.sentence;
+    EXPECT_LE(soon.cost, 1.05 * best.cost);
+    EXPECT_GE(soon.effort(), 0.1);
+    EXPECT_LT(soon.effort(), 0.12);
+  }
+}
+
+TEST(BestPlanner, TheSameSeedGivesTheSamePlanNodeForNode) {
+  const StepSet set = PlausibleSet();
+  const FlatQuery query(set, WallWithGap(0.3, 0.8));
+  const PlanRequest request = RequestTo({2.0, 0.0, 0.0}, set, query);
+  const PlanResult once = PlanBest(request, 0.05), again = PlanBest(request, 0.05);
+  EXPECT_EQ(once.elements, again.elements);
+  EXPECT_EQ(once.nodes, again.nodes);
+  EXPECT_EQ(once.queries, again.queries);
+}
+
+TEST(BestPlanner, EndsAtTheFirstPlanWhereThatIsEnough) {
+  const StepSet set = PlausibleSet();
+  const FlatQuery query(set, {});
+  const PlanRequest request = RequestTo({2.0, 0.0, 0.0}, set, query);
+  std::mt19937_64 random(1);
+  const PlanResult first = BestPlanner({}, {}).Plan(request, random);
+  random.seed(1);
+  const PlanResult tree = FootstepRrt({}).Plan(request, random);
+  EXPECT_EQ(first.elements, tree.elements);
+}
+
+TEST(PlanMonitor, ATurnEndsWithoutEndingThePlanning) {
+  const StepSet set = PlausibleSet();
+  const FlatQuery query(set, {});
+  PlanRequest request = RequestTo({2.0, 0.0, 0.0}, set, query);
+  double proofs = 0.0;
+  request.proofs = [&proofs] { return proofs; };
+  request.stop = AfterEffort(1.0);
+  const StepGraph graph(request, AllElements(set));
+  PlanMonitor monitor(request, graph);
+  EXPECT_FALSE(monitor.Stop());
+  monitor.Allow(0.3);
+  EXPECT_FALSE(monitor.Stop());
+  proofs = 0.4;
+  EXPECT_TRUE(monitor.Stop());
+  EXPECT_FALSE(monitor.stopped());
+  monitor.Allow(0.3);
+  EXPECT_FALSE(monitor.Stop());
+  proofs = 1.0;
+  EXPECT_TRUE(monitor.Stop());
+  EXPECT_TRUE(monitor.stopped());
+}
+
+}  // namespace
+}  // namespace halfstep
