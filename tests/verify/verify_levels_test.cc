@@ -167,7 +167,7 @@ TEST(LevelTops, KnowNamesAndWhatRestsOnALevel) {
   const verify::LevelTops levels(scene);
   EXPECT_EQ(levels.HeightNamed("e"), 0.2);
   EXPECT_EQ(levels.HeightNamed("floor"), 0.0);
-  EXPECT_EQ(levels.HeightNamed("f"), std::nullopt);
+  EXPECT_EQ(levels.HeightNamed("g"), std::nullopt);
   EXPECT_EQ(levels.Inside(robot, {1.4, 0.7, 0}, 0.1), -1);  // d is there
   EXPECT_EQ(levels.Inside(robot, {0.5, 0.5, 0}, 0.15), -1);
   EXPECT_GT(levels.Inside(robot, {0.5, 0.9, 0}, 0.1), 0.1);  // across an edge that a and c share
