@@ -1,0 +1,130 @@
+#include <algorithm>
+
+#include "experiments/plot/silhouette.h"
+#include "experiments/plot/style.h"
+#include "experiments/plot/subjects.h"
+
+namespace halfstep::plot {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kCentimetres = 100.0;  // in a metre
+constexpr double kBeside = 0.03;        // an obstacle so near to a sole's way is in it [m]
+
+Stroke StrokeOf(Side side) {
+  if (side == Side::kLeft) return {.color = style::kBlue, .width = 1.0};
+  return {.color = style::Lighter(style::kVermilion, 0.0), .width = 1.0, .dash = {4.0, 1.6}};
+}
+
+std::string Column(Side side, const std::string& what) {
+  return std::string(halfstep::Name(side)) + "_foot_" + what;
+}
+
+// The coordinate along which the soles go farther: 'x' or 'y'.
+std::string Ahead(const PlottedRun& run) {
+  Extent x, y;
+  for (const PlottedWalk& walk : run.walks) {
+    for (const Side side : {Side::kLeft, Side::kRight}) {
+      for (const Pose2& place : walk.Footprints(side)) x.Add(place.x), y.Add(place.y);
+    }
+  }
+  return x.high - x.low >= y.high - y.low ? "x" : "y";
+}
+
+Line SoleLine(const PlottedWalk& walk, Side side, const std::string& column, double factor) {
+  return {.name = walk.method + "/" + Column(side, column),
+          .points = walk.OverTime(Column(side, column), factor),
+          .stroke = StrokeOf(side),
+          .label = std::string(halfstep::Name(side))};
+}
+
+// The obstacles that reach into what the soles cover seen from above.
+std::vector<Area> ObstaclesInTheWay(const PlottedRun& run, int ahead) {
+  const double reach = 0.5 * run.place.robot.sole_size.norm() + kBeside;
+  std::vector<Area> areas;
+  for (const Obstacle& obstacle : run.place.scene.obstacles) {
+    const Eigen::AlignedBox3d bounds = BoundsOf(obstacle.shape, obstacle.X_WO);
+    const Eigen::AlignedBox2d above(bounds.min().head<2>(), bounds.max().head<2>());
+    bool meets = false;
+    for (const PlottedWalk& walk : run.walks) {
+      for (const Side side : {Side::kLeft, Side::kRight}) {
+        for (const Pose2& sole : walk.Soles(side)) {
+          meets = meets || above.squaredExteriorDistance(sole.position()) < reach * reach;
+        }
+      }
+    }
+    if (!meets) continue;
+    for (std::vector<Vector2d>& corners : Silhouette(obstacle, ahead, 2)) {
+      for (Vector2d& corner : corners) corner *= kCentimetres;
+      areas.push_back({.name = obstacle.name,
+                       .corners = std::move(corners),
+                       .fill = style::Grey(0.6),
+                       .ink = style::Grey(0.15)});
+    }
+  }
+  if (areas.size() == 1) areas.front().label = areas.front().name;
+  return areas;
+}
+
+}  // namespace
+
+std::vector<Row> FootRows(const PlottedRun& run) {
+  const std::string ahead = Ahead(run);
+  Extent height, place;
+  std::vector<Row> rows;
+  for (const PlottedWalk& walk : run.walks) {
+    Panel above, forward;
+    if (run.compares()) above.title = walk.Title();
+    for (const Side side : {Side::kLeft, Side::kRight}) {
+      above.lines.push_back(SoleLine(walk, side, "z_m", kCentimetres));
+      forward.lines.push_back(SoleLine(walk, side, ahead + "_m", 1.0));
+      height.Add(above.lines.back().points, 1);
+      place.Add(forward.lines.back().points, 1);
+    }
+    above.numbers_below = false;
+    rows.push_back({std::move(above)});
+    rows.push_back({std::move(forward)});
+  }
+  for (size_t i = 0; i < rows.size(); ++i) {
+    Panel& panel = rows[i].front();
+    panel.x = {.label = "time [s]", .low = 0.0, .high = run.duration()};
+    panel.y = i % 2 == 0 ? height.WithMargin("height [cm]") : place.WithMargin(ahead + " [m]");
+    panel.numbers_below = i + 1 == rows.size();
+  }
+  return rows;
+}
+
+std::vector<Row> SideRows(const PlottedRun& run) {
+  const std::string ahead = Ahead(run);
+  Panel common{.areas = ObstaclesInTheWay(run, ahead == "x" ? 0 : 1)};
+  Extent x, z;
+  z.Add(0.0);
+  std::vector<Row> rows;
+  for (const PlottedWalk& walk : run.walks) {
+    Panel panel = common;
+    if (run.compares()) panel.title = walk.Title();
+    for (const Side side : {Side::kLeft, Side::kRight}) {
+      panel.lines.push_back(
+          {.name = walk.method + "/" + Column(side, "z_m"),
+           .points = walk.Path(Column(side, ahead + "_m"), Column(side, "z_m"), kCentimetres),
+           .stroke = StrokeOf(side),
+           .label = std::string(halfstep::Name(side))});
+      x.Add(panel.lines.back().points, 0);
+      z.Add(panel.lines.back().points, 1);
+    }
+    rows.push_back({std::move(panel)});
+  }
+  for (size_t i = 0; i < rows.size(); ++i) {
+    Panel& panel = rows[i].front();
+    panel.x = x.WithMargin(ahead + " of the sole's centre [cm]");
+    panel.y = z.WithMargin("height [cm]");
+    panel.y.low = std::min(z.low, 0.0);
+    panel.equal = true;  // where that is high enough
+    panel.height = 50.0;
+    panel.numbers_below = i + 1 == rows.size();
+  }
+  return rows;
+}
+
+}  // namespace halfstep::plot

@@ -1,0 +1,16 @@
+#include "experiments/plot/style.h"
+
+#include <array>
+
+namespace halfstep::plot::style {
+
+Stroke Nth(int index) {
+  static constexpr std::array kColors = {kBlack, kVermilion, kBlue, kGreen, kPurple, kOrange, kSky};
+  static const std::array<std::vector<double>, 4> kDashes = {
+      std::vector<double>{}, {4.0, 1.6}, {1.2, 1.2}, {5.0, 1.4, 1.2, 1.4}};
+  return {.color = kColors[static_cast<size_t>(index) % kColors.size()],
+          .width = 1.0,
+          .dash = kDashes[static_cast<size_t>(index) % kDashes.size()]};
+}
+
+}  // namespace halfstep::plot::style
