@@ -20,6 +20,7 @@ using Eigen::Vector2d;
 constexpr char kFont[] = "Liberation Sans";
 constexpr double kDotsPerInch = 300.0;  // of PNG
 constexpr double kThinning = 0.015;     // how far a drawn line is from all its points at most [pt]
+constexpr double kHalo = 1.6;           // width of the white about labels, half of it outside [pt]
 constexpr double kHatching = 3.0;       // between hatching lines [pt]
 constexpr char kNoDate[] = "2000-01-01T00:00:00Z";  // the same run gives the same file
 
@@ -178,15 +179,16 @@ void DrawPanel(cairo_t* c, const PlacedPanel& placed) {
 
 void DrawText(cairo_t* c, const PlacedText& text) {
   SelectFont(c, text.bold);
-  if (text.halo) {
-    cairo_set_source_rgba(c, 1.0, 1.0, 1.0, 0.85);
-    Rectangle(c, text.box);
-    cairo_fill(c);
-  }
-  SetColor(c, text.ink);
   cairo_save(c);
   cairo_move_to(c, text.at.x(), text.at.y());
   if (text.upwards) cairo_rotate(c, -0.5 * M_PI);
+  if (text.halo) {
+    cairo_text_path(c, text.text.c_str());
+    SetStroke(c, {.color = style::kWhite, .width = kHalo});
+    cairo_stroke(c);
+    cairo_move_to(c, text.at.x(), text.at.y());
+  }
+  SetColor(c, text.ink);
   cairo_show_text(c, text.text.c_str());
   cairo_restore(c);
 }

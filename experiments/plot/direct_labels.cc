@@ -79,11 +79,12 @@ class LabelPlaces {
     for (const Line& line : panel.panel.lines) drawn_.push_back({OnPage(panel, line.points)});
   }
 
-  void Add(const std::string& text, const Color& ink, size_t own) {
+  void Add(const std::string& text, const Color& ink, size_t own, bool only_inside = false) {
     size_ = {measure_(text, false), style::kCapHeight + style::kDescent};
     best_cost_ = std::numeric_limits<double>::infinity();
     if (drawn_[own].edge) TryInside(own);
-    if (best_cost_ > 1.0) TryBeside(own);
+    if (best_cost_ > 1.0 && !only_inside) TryBeside(own);
+    if (only_inside && best_cost_ >= kOverText) return;
     if (!std::isfinite(best_cost_)) return;  // nothing of it is within the frame
     taken_.push_back(best_);
     labels_.push_back({.text = text,
@@ -168,6 +169,8 @@ class LabelPlaces {
     for (size_t k = 0; k < drawn_.size(); ++k) {
       if (!beside && k == own) continue;
       const std::vector<Vector2d>& points = drawn_[k].points;
+      // Within another area, too, it would not say which it means.
+      if (!beside && drawn_[k].edge && Inside(points, box.center())) cost += kUnclear;
       double covered = 0.0, distance = std::numeric_limits<double>::infinity();
       for (size_t i = 0; i < points.size(); ++i) {
         if (!points[i].allFinite()) continue;
@@ -203,13 +206,16 @@ std::vector<PlacedText> DirectLabels(const PlacedPanel& panel, const TextMeasure
   LabelPlaces places(panel, measure, taken);
   const std::vector<Area>& areas = panel.panel.areas;
   const std::vector<Line>& lines = panel.panel.lines;
-  for (size_t i = 0; i < lines.size(); ++i) {
-    if (!lines[i].label.empty()) {
+  // What has least choice first.
+  for (const bool inside : {true, false}) {
+    for (size_t i = 0; i < areas.size(); ++i) {
+      if (areas[i].label.empty() || areas[i].label_inside != inside) continue;
+      places.Add(areas[i].label, areas[i].ink, i, inside);
+    }
+    for (size_t i = 0; inside && i < lines.size(); ++i) {
+      if (lines[i].label.empty()) continue;
       places.Add(lines[i].label, lines[i].stroke.color, areas.size() + i);
     }
-  }
-  for (size_t i = 0; i < areas.size(); ++i) {
-    if (!areas[i].label.empty()) places.Add(areas[i].label, areas[i].ink, i);
   }
   return places.labels();
 }

@@ -36,9 +36,10 @@ struct Area {
   std::vector<Eigen::Vector2d> corners;  ///< (x, y), without the first one again
   std::optional<Color> fill = {};
   std::optional<Stroke> outline = {};
-  bool hatched = false;    ///< with grey lines across
-  std::string label = {};  ///< written in it or beside it; "": nothing is
-  Color ink = {};          ///< of the label
+  bool hatched = false;       ///< with grey lines across
+  std::string label = {};     ///< written in it or beside it; "": nothing is
+  bool label_inside = false;  ///< it is left out where it does not fit into the area
+  Color ink = {};             ///< of the label
 };
 
 /// A disc about a point.
@@ -49,12 +50,11 @@ struct Mark {
   bool open = false;  ///< white inside
 };
 
-/// A word that is centred about a point; left out where it is larger than `room`.
+/// A word that is centred about a point.
 struct Word {
   Eigen::Vector2d at;  ///< (x, y) in the units of the axes
   std::string text;
   Color ink = {};
-  double room = 0.0;   ///< the side of the square that it has to fit [units of x]; 0: any
   bool after = false;  ///< begins there, in place of being centred
 };
 

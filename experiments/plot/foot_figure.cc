@@ -10,12 +10,9 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kCentimetres = 100.0;  // in a metre
+constexpr double kStill = 0.5;          // the least way of a sole that is drawn [cm]
+constexpr double kLeastHeight = 50.0;   // of panels from the side [pt]
 constexpr double kBeside = 0.03;        // an obstacle so near to a sole's way is in it [m]
-
-Stroke StrokeOf(Side side) {
-  if (side == Side::kLeft) return {.color = style::kBlue, .width = 1.0};
-  return {.color = style::Lighter(style::kVermilion, 0.0), .width = 1.0, .dash = {4.0, 1.6}};
-}
 
 std::string Column(Side side, const std::string& what) {
   return std::string(halfstep::Name(side)) + "_foot_" + what;
@@ -35,7 +32,7 @@ std::string Ahead(const PlottedRun& run) {
 Line SoleLine(const PlottedWalk& walk, Side side, const std::string& column, double factor) {
   return {.name = walk.method + "/" + Column(side, column),
           .points = walk.OverTime(Column(side, column), factor),
-          .stroke = StrokeOf(side),
+          .stroke = style::LineOf(side),
           .label = std::string(halfstep::Name(side))};
 }
 
@@ -100,31 +97,31 @@ std::vector<Row> SideRows(const PlottedRun& run) {
   Panel common{.areas = ObstaclesInTheWay(run, ahead == "x" ? 0 : 1)};
   Extent x, z;
   z.Add(0.0);
-  std::vector<Row> rows;
+  std::vector<Panel> panels;
   for (const PlottedWalk& walk : run.walks) {
-    Panel panel = common;
+    Panel& panel = panels.emplace_back(common);
     if (run.compares()) panel.title = walk.Title();
     for (const Side side : {Side::kLeft, Side::kRight}) {
-      panel.lines.push_back(
-          {.name = walk.method + "/" + Column(side, "z_m"),
-           .points = walk.Path(Column(side, ahead + "_m"), Column(side, "z_m"), kCentimetres),
-           .stroke = StrokeOf(side),
-           .label = std::string(halfstep::Name(side))});
-      x.Add(panel.lines.back().points, 0);
-      z.Add(panel.lines.back().points, 1);
+      Line line{.name = walk.method + "/" + Column(side, "z_m"),
+                .points = walk.Path(Column(side, ahead + "_m"), Column(side, "z_m"), kCentimetres),
+                .stroke = style::LineOf(side),
+                .label = std::string(halfstep::Name(side))};
+      Extent way;
+      way.Add(line.points, 0);
+      if (way.high - way.low < kStill) continue;
+      x.Add(line.points, 0);
+      z.Add(line.points, 1);
+      panel.lines.push_back(std::move(line));
     }
-    rows.push_back({std::move(panel)});
   }
-  for (size_t i = 0; i < rows.size(); ++i) {
-    Panel& panel = rows[i].front();
+  for (Panel& panel : panels) {
     panel.x = x.WithMargin(ahead + " of the sole's centre [cm]");
     panel.y = z.WithMargin("height [cm]");
     panel.y.low = std::min(z.low, 0.0);
     panel.equal = true;  // where that is high enough
-    panel.height = 50.0;
-    panel.numbers_below = i + 1 == rows.size();
+    panel.height = kLeastHeight;
   }
-  return rows;
+  return Compared(std::move(panels), 0.5);
 }
 
 }  // namespace halfstep::plot

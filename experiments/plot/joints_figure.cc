@@ -9,6 +9,7 @@ namespace {
 
 using Eigen::Vector2d;
 
+constexpr size_t kKnee = 3;
 const std::array<Side, 2> kSides = {Side::kLeft, Side::kRight};
 
 std::vector<std::string> Parts(const std::string& name) {
@@ -44,16 +45,11 @@ std::vector<Vector2d> Speeds(const std::vector<Vector2d>& angles) {
   return speeds;
 }
 
-Stroke StrokeOf(Side side) {
-  if (side == Side::kLeft) return {.color = style::kBlue, .width = 0.9};
-  return {.color = style::kVermilion, .width = 0.9, .dash = {3.0, 1.4}};
-}
-
 void AddLimits(double low, double high, Side side, double end, Panel* panel, Extent* extent) {
   for (const double limit : {low, high}) {
     panel->lines.push_back({.name = "limit",
                             .points = {{0.0, limit}, {end, limit}},
-                            .stroke = {.color = style::Lighter(StrokeOf(side).color, 0.2),
+                            .stroke = {.color = style::Lighter(style::LineOf(side).color, 0.2),
                                        .width = 0.6,
                                        .dash = {0.8, side == Side::kLeft ? 1.6 : 2.4}}});
     extent->Add(limit);
@@ -68,11 +64,12 @@ Row JointRow(const PlottedRun& run, const PlottedWalk& walk, size_t joint) {
     const LegJoint& one = run.place.robot.legs[static_cast<size_t>(Index(side))].joints[joint];
     Line line{.name = walk.method + "/q_" + one.name + "_rad",
               .points = walk.OverTime("q_" + one.name + "_rad"),
-              .stroke = StrokeOf(side)};
+              .stroke = style::LineOf(side)};
     Line rate{.name = walk.method + "/speed_" + one.name + "_rad_s",
               .points = Speeds(line.points),
-              .stroke = StrokeOf(side)};
-    if (joint == 0) rate.label = std::string(halfstep::Name(side));
+              .stroke = style::LineOf(side)};
+    // Where the legs differ most.
+    if (joint == kKnee) line.label = std::string(halfstep::Name(side));
     angles.Add(line.points, 1);
     speeds.Add(rate.points, 1);
     AddLimits(one.lower, one.upper, side, run.duration(), &angle, &angles);
@@ -86,7 +83,9 @@ Row JointRow(const PlottedRun& run, const PlottedWalk& walk, size_t joint) {
   for (Panel* panel : {&angle, &speed}) {
     panel->x = {.label = "time [s]", .low = 0.0, .high = run.duration()};
     panel->y = (panel == &angle ? angles : speeds).WithMargin("");
-    panel->height = 36.0;
+    panel->height = 40.0;
+    // Room for the joint's name.
+    panel->y.high += 0.3 * (panel->y.high - panel->y.low);
     panel->numbers_below = joint == 5;
   }
   if (joint == 0) {

@@ -95,7 +95,13 @@ class Placing {
     const double height = FrameHeight(panel, width);
     if (asked.x.ticks.empty()) panel.x.ticks = FittingTicks(panel.x, width);
     if (asked.y.ticks.empty()) {
-      panel.y.ticks = ChosenTicks(panel.y, std::max(2, static_cast<int>(height / 13.0)));
+      int most = std::max(2, static_cast<int>(height / 10.0));
+      // As far apart as along x.
+      if (panel.equal && panel.x.ticks.size() > 1) {
+        const double apart = panel.x.ticks[1].at - panel.x.ticks[0].at;
+        most = std::min(most, static_cast<int>((panel.y.high - panel.y.low) / apart) + 1);
+      }
+      panel.y.ticks = ChosenTicks(panel.y, most);
     }
     Beside need;
     for (const Tick& tick : panel.y.ticks)
@@ -217,8 +223,6 @@ class Placing {
     }
     for (const Word& word : placed.panel.words) {
       const double width = measure_(word.text, false);
-      const double scale = placed.frame.sizes().x() / (placed.panel.x.high - placed.panel.x.low);
-      if (word.room > 0.0 && std::max(width, style::kCapHeight) + 1.0 > word.room * scale) continue;
       const Eigen::Vector2d p = placed.ToPage(word.at);
       PlacedText text = Placed(
           word.text,

@@ -6,7 +6,6 @@
 #include "experiments/plot/subjects.h"
 #include "smoothing/margins/margin.h"
 #include "wpg/files/input_error.h"
-#include "wpg/files/number_text.h"
 
 namespace halfstep::plot {
 namespace {
@@ -22,6 +21,7 @@ struct Proved {
   double demanded = 0.0;
   double least = 1e300;          // of all times [its unit]
   std::vector<Vector2d> points;  // (t, margin at least), a step an interval
+  std::vector<Vector2d> found;   // (t, margin) in the middle of each
 
   double slack() const { return (least - demanded) / Scale(family); }
 };
@@ -83,6 +83,8 @@ std::map<std::string, Proved> ReadProved(const PlottedWalk& walk) {
     const double least = margin[i] - bound[i];
     const double shown = std::isfinite(least) ? least : std::nan("");
     if (std::isfinite(least)) one.least = std::min(one.least, least);
+    one.found.emplace_back(0.5 * (begin[i] + end[i]),
+                           std::isfinite(margin[i]) ? margin[i] : std::nan(""));
     one.points.emplace_back(begin[i], shown);
     one.points.emplace_back(end[i], shown);
   }
@@ -106,47 +108,57 @@ std::vector<std::string> Tightest(const std::vector<std::map<std::string, Proved
   return names;
 }
 
-std::string Short(double value) { return ShortestText(Shortened(value, 3)); }
+Stroke WalkStroke(size_t i) {
+  if (i == 0) return {.color = style::kBlue, .width = 0.9};
+  return {.color = style::kVermilion, .width = 0.9, .dash = {3.0, 1.2}};
+}
+
+// What was found at instants over what is proved about them.
+void AddWalk(const PlottedWalk& walk, const Proved& proved, const std::string& name, size_t i,
+             Panel* panel, Extent* extent) {
+  const double factor = UnitOf(proved.family).factor;
+  const double most = factor * (proved.demanded + kShownScales * Scale(proved.family));
+  const auto scaled = [&](std::vector<Vector2d> points) {
+    for (Vector2d& p : points) {
+      p.y() *= factor;
+      if (p.y() <= most) extent->Add(p.y());
+    }
+    return points;
+  };
+  const Stroke stroke = WalkStroke(i);
+  panel->lines.push_back({.name = walk.method + "/" + name + " proved",
+                          .points = scaled(proved.points),
+                          .stroke = {.color = style::Lighter(stroke.color, 0.55), .width = 0.5}});
+  panel->lines.push_back({.name = walk.method + "/" + name,
+                          .points = scaled(proved.found),
+                          .stroke = stroke,
+                          .label = walk.method});
+  extent->Add(factor * proved.least);
+  extent->Add(factor * proved.demanded);
+}
 
 Panel FamilyPanel(const PlottedRun& run, const std::vector<std::map<std::string, Proved>>& walks,
                   const std::string& name) {
   Panel panel;
   Extent extent;
+  double demanded = 0.0;
   for (size_t i = 0; i < walks.size(); ++i) {
     const auto found = walks[i].find(name);
     if (found == walks[i].end()) continue;
     const Proved& proved = found->second;
     const auto [unit, factor] = UnitOf(proved.family);
-    const double demanded = factor * proved.demanded,
-                 most = demanded + kShownScales * factor * Scale(proved.family);
-    Line line{.name = run.walks[i].method + "/" + name,
-              .points = proved.points,
-              .stroke = {.color = i == 0 ? style::kBlue : style::kVermilion, .width = 0.9}};
-    if (i == 1) line.stroke.dash = {3.0, 1.4};
-    for (Vector2d& p : line.points) {
-      p.y() *= factor;
-      if (p.y() <= most) extent.Add(p.y());
-    }
-    extent.Add(factor * proved.least);
-    extent.Add(demanded);
-    if (panel.note.empty()) {
-      panel.note = WordsOf(proved.family) + (unit.empty() ? "" : " [" + unit + "]");
-      panel.areas.push_back(
-          {.name = "below what is demanded",
-           .corners = {{0.0, -1e9}, {1e9, -1e9}, {1e9, demanded}, {0.0, demanded}},
-           .fill = style::Grey(0.85)});
-    }
-    if (run.compares()) {
-      line.label = run.walks[i].method;
-    } else {
-      panel.note += " ≥ " + Short(factor * proved.least);
-    }
-    panel.lines.push_back(std::move(line));
+    AddWalk(run.walks[i], proved, name, i, &panel, &extent);
+    demanded = factor * proved.demanded;
+    panel.title = WordsOf(proved.family) + (unit.empty() ? "" : " [" + unit + "]");
   }
   panel.x = {.label = "time [s]", .low = 0.0, .high = run.duration()};
   panel.y = extent.WithMargin("", 0.1);
-  // Room for the note.
-  panel.y.high += 0.35 * (panel.y.high - panel.y.low);
+  panel.areas.push_back({.name = "below what is demanded",
+                         .corners = {{0.0, panel.y.low},
+                                     {run.duration(), panel.y.low},
+                                     {run.duration(), demanded},
+                                     {0.0, demanded}},
+                         .fill = style::Grey(0.82)});
   panel.height = 42.0;
   return panel;
 }
@@ -163,7 +175,7 @@ std::vector<Row> MarginsRows(const PlottedRun& run) {
     if (i % 2 == 0) rows.emplace_back();
     Panel panel = FamilyPanel(run, walks, names[i]);
     panel.numbers_below = i + 2 >= names.size();
-    if (i > 0) {
+    if (i > 0 || !run.compares()) {
       for (Line& line : panel.lines) line.label = "";
     }
     rows.back().push_back(std::move(panel));

@@ -135,6 +135,21 @@ PlottedRun ReadPlottedRun(const fs::path& run, const std::vector<std::string>& m
   return result;
 }
 
+std::vector<Row> Compared(std::vector<Panel> panels, double high) {
+  const Panel& first = panels.front();
+  const double aspect = (first.y.high - first.y.low) / (first.x.high - first.x.low);
+  if (aspect > high) {
+    for (size_t i = 1; i < panels.size(); ++i) panels[i].y.label = "";
+    return {std::move(panels)};
+  }
+  std::vector<Row> rows;
+  for (size_t i = 0; i < panels.size(); ++i) {
+    panels[i].numbers_below = i + 1 == panels.size();
+    rows.push_back({std::move(panels[i])});
+  }
+  return rows;
+}
+
 void Extent::Add(double value) {
   if (!std::isfinite(value)) return;
   low = std::min(low, value);

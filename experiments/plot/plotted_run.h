@@ -68,4 +68,8 @@ struct Extent {
   Axis WithMargin(const std::string& label, double share = 0.06, double least = 1e-3) const;
 };
 
+/// Panels with the same axes of walks that are compared: beside each other where they are higher
+/// than `high` times their width, else below each other.
+std::vector<Row> Compared(std::vector<Panel> panels, double high);
+
 }  // namespace halfstep::plot

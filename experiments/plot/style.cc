@@ -4,6 +4,15 @@
 
 namespace halfstep::plot::style {
 
+Stroke LineOf(Side side) {
+  if (side == Side::kLeft) return {.color = Of(side), .width = 1.0};
+  return {.color = Of(side), .width = 1.0, .dash = {4.0, 1.6}};
+}
+
+Stroke ComLine() { return {.color = kBlack, .width = 0.9}; }
+
+Stroke ZmpLine() { return {.color = kGreen, .width = 1.0, .dash = {3.0, 1.2}}; }
+
 Stroke Nth(int index) {
   static constexpr std::array kColors = {kBlack, kVermilion, kBlue, kGreen, kPurple, kOrange, kSky};
   static const std::array<std::vector<double>, 4> kDashes = {

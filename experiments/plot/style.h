@@ -1,6 +1,7 @@
 #pragma once
 
 #include "experiments/plot/figure.h"
+#include "wpg/geometry/side.h"
 
 /// What all figures share. Lines differ in dash and in lightness as well as in colour, so that they
 /// are told apart in print without colours.
@@ -24,6 +25,13 @@ constexpr Color Grey(double light) { return {light, light, light}; }
 constexpr Color Lighter(const Color& c, double share) {
   return {c.r + (1 - c.r) * share, c.g + (1 - c.g) * share, c.b + (1 - c.b) * share};
 }
+
+/// The colour of what is of a foot or leg.
+constexpr Color Of(Side side) { return side == Side::kLeft ? kBlue : kVermilion; }
+/// The same of its lines.
+Stroke LineOf(Side side);
+Stroke ComLine();  ///< of the CoM
+Stroke ZmpLine();  ///< of the ZMP; drawn below the CoM's, so that it shows where they differ
 
 /// The strokes of lines that are of equal rank, in their order; more than 28 repeat.
 Stroke Nth(int index);

@@ -70,7 +70,8 @@ std::vector<Tick> ChosenTicks(const Axis& axis, int most) {
     if (static_cast<int>(ticks.size()) <= std::max(most, 2)) break;
     before = ticks;
   }
-  // One tick alone gives no scale: then the ends of the next finer ones.
+  // One tick alone gives no scale: then the next finer ones, or their ends.
+  if (ticks.size() < 2 && static_cast<int>(before.size()) <= most + 2) return before;
   if (ticks.size() < 2 && before.size() >= 2) return {before.front(), before.back()};
   return ticks;
 }

@@ -21,14 +21,49 @@ std::vector<Vector2d> CornersOf(const Eigen::Matrix2Xd& polygon) {
   return corners;
 }
 
-Area Footprint(const Pose2& X_WS, const Eigen::Vector2d& size, Side side) {
-  const bool left = side == Side::kLeft;
-  const Color color = left ? style::kBlue : style::kOrange;
-  return {.name = std::string(halfstep::Name(side)) + " footprint",
-          .corners = CornersOf(SoleCorners(X_WS, size)),
-          .fill = style::Lighter(color, left ? 0.72 : 0.86),
-          .outline = Stroke{.color = style::Lighter(color, left ? 0.0 : 0.1), .width = 0.6},
-          .ink = style::Lighter(color, 0.0)};
+/// A sole on the floor, in the order of landings.
+struct Landing {
+  double t = 0.0;  // [s]
+  Side side = Side::kLeft;
+  Pose2 place;
+  std::string number;  // as footsteps.csv counts; L and R at the start
+};
+
+std::vector<Landing> LandingsOf(const PlottedWalk& walk) {
+  std::vector<Landing> landings;
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    const std::vector<bool> stands = walk.Stands(side);
+    const std::vector<Pose2> soles = walk.Soles(side);
+    for (size_t i = 0; i < soles.size(); ++i) {
+      if (!stands[i] || (i > 0 && stands[i - 1])) continue;
+      landings.push_back(
+          {walk.t[i], side, soles[i], i == 0 ? (side == Side::kLeft ? "L" : "R") : ""});
+    }
+  }
+  std::ranges::stable_sort(landings, {}, &Landing::t);
+  for (size_t i = 2; i < landings.size(); ++i) landings[i].number = std::to_string(i - 1);
+  return landings;
+}
+
+// Fills first, so that all outlines show where soles stood on the same place.
+std::vector<Area> Footprints(const PlottedWalk& walk, const Eigen::Vector2d& size) {
+  std::vector<Area> fills, outlines;
+  for (const Landing& landing : LandingsOf(walk)) {
+    const bool left = landing.side == Side::kLeft;
+    const Color color = style::Of(landing.side);
+    Area area{.name = std::string(halfstep::Name(landing.side)) + " footprint",
+              .corners = CornersOf(SoleCorners(landing.place, size)),
+              .fill = style::Lighter(color, left ? 0.75 : 0.9)};
+    fills.push_back(area);
+    area.fill.reset();
+    area.outline = Stroke{.color = color, .width = 0.6};
+    area.label = landing.number;
+    area.label_inside = true;
+    area.ink = style::Grey(0.15);
+    outlines.push_back(std::move(area));
+  }
+  fills.insert(fills.end(), outlines.begin(), outlines.end());
+  return fills;
 }
 
 /// The window that panels of all walks show.
@@ -112,38 +147,6 @@ void AddScene(const Scene& scene, Panel* panel) {
   for (const size_t i : named) panel->areas[i].label = panel->areas[i].name;
 }
 
-// Footprints with their numbers, as footsteps.csv counts them; 0 is the start.
-void AddFootprints(const PlottedWalk& walk, const Eigen::Vector2d& size, Panel* panel) {
-  for (const Side side : {Side::kLeft, Side::kRight}) {
-    for (const Pose2& place : walk.Footprints(side)) {
-      panel->areas.push_back(Footprint(place, size, side));
-    }
-  }
-}
-
-// Beside the middle of the soles, not under the lines of CoM and ZMP: towards the heel.
-void AddNumbers(const PlottedWalk& walk, const Eigen::Vector2d& size, Panel* panel) {
-  std::vector<std::pair<double, std::pair<Side, Pose2>>> landings;
-  for (const Side side : {Side::kLeft, Side::kRight}) {
-    const std::vector<bool> stands = walk.Stands(side);
-    const std::vector<Pose2> soles = walk.Soles(side);
-    for (size_t i = 0; i < soles.size(); ++i) {
-      if (stands[i] && (i == 0 || !stands[i - 1]))
-        landings.push_back({walk.t[i], {side, soles[i]}});
-    }
-  }
-  std::ranges::stable_sort(landings, {}, [](const auto& landing) { return landing.first; });
-  for (size_t i = 0; i < landings.size(); ++i) {
-    const auto& [side, place] = landings[i].second;
-    const std::string text = i < 2 ? (side == Side::kLeft ? "L" : "R") : std::to_string(i - 1);
-    const double aside = (side == Side::kLeft ? 0.12 : -0.12) * size.y();
-    panel->words.push_back({.at = place * Vector2d(-0.28 * size.x(), aside),
-                            .text = text,
-                            .ink = style::Grey(0.15),
-                            .room = size.y()});
-  }
-}
-
 }  // namespace
 
 std::vector<Row> WalkRows(const PlottedRun& run) {
@@ -155,34 +158,29 @@ std::vector<Row> WalkRows(const PlottedRun& run) {
     if (run.compares()) panel.title = walk.Title();
     panel.equal = true;
     panel.height = 0.0;
-    AddFootprints(walk, size, &panel);
-    panel.lines.push_back({.name = walk.method + "/com",
-                           .points = walk.Path("com_x_m", "com_y_m"),
-                           .stroke = {.color = style::kBlack, .width = 1.0},
-                           .label = "CoM"});
+    panel.areas = Footprints(walk, size);
     panel.lines.push_back({.name = walk.method + "/zmp",
                            .points = walk.Path("zmp_x_m", "zmp_y_m"),
-                           .stroke = {.color = style::kVermilion, .width = 0.8, .dash = {2.6, 1.3}},
+                           .stroke = style::ZmpLine(),
                            .label = "ZMP"});
+    panel.lines.push_back({.name = walk.method + "/com",
+                           .points = walk.Path("com_x_m", "com_y_m"),
+                           .stroke = style::ComLine(),
+                           .label = "CoM"});
     for (const Area& area : panel.areas) window.Add(area);
     for (const Line& line : panel.lines) window.Add(line);
   }
   window.x.low -= kAround, window.x.high += kAround;
   window.y.low -= kAround, window.y.high += kAround;
-  std::vector<Row> rows;
-  for (size_t i = 0; i < panels.size(); ++i) {
-    Panel& panel = panels[i];
+  for (Panel& panel : panels) {
     panel.x = window.x.WithMargin("x [m]", 0.0);
     panel.y = window.y.WithMargin("y [m]", 0.0);
     const std::vector<Area> footprints = std::move(panel.areas);
     panel.areas.clear();
     AddScene(run.place.scene, &panel);
     panel.areas.insert(panel.areas.end(), footprints.begin(), footprints.end());
-    AddNumbers(run.walks[i], size, &panel);
-    panel.numbers_below = i + 1 == panels.size();
-    rows.push_back({std::move(panel)});
   }
-  return rows;
+  return Compared(std::move(panels), 0.9);
 }
 
 }  // namespace halfstep::plot

@@ -12,48 +12,47 @@ namespace {
 
 using Eigen::Vector2d;
 
-// A band as areas, one for each stretch of rows with the same soles on the floor.
-std::vector<Area> BandAreas(const PlottedWalk& walk, const Vector2d& sole_size, int k,
-                            double demanded, const Color& fill) {
+// A band as one area; where other soles begin to stand its edges are upright.
+Area BandArea(const PlottedWalk& walk, const Vector2d& sole_size, int k, double demanded) {
   const std::vector<SupportBand> bands = SupportBands(walk, sole_size, k, demanded);
   const std::vector<std::string> support = walk.rows.Texts("support");
-  std::vector<Area> areas;
-  for (size_t begin = 0; begin < bands.size();) {
-    size_t end = begin;
-    while (end < bands.size() && support[end] == support[begin]) ++end;
-    Area area{.name = "support", .corners = {}, .fill = fill};
-    // Up to the next stretch, whose first row has the other soles.
-    const double last = end < bands.size() ? walk.t[end] : walk.t[end - 1];
-    for (size_t i = begin; i < end; ++i) area.corners.emplace_back(walk.t[i], bands[i].high);
-    area.corners.emplace_back(last, bands[end - 1].high);
-    area.corners.emplace_back(last, bands[end - 1].low);
-    for (size_t i = end; i-- > begin;) area.corners.emplace_back(walk.t[i], bands[i].low);
-    std::erase_if(area.corners, [](const Vector2d& p) { return !p.allFinite(); });
-    if (area.corners.size() > 2) areas.push_back(std::move(area));
-    begin = end;
+  std::vector<Vector2d> upper, lower;
+  for (size_t i = 0; i < bands.size(); ++i) {
+    if (!std::isfinite(bands[i].low)) continue;
+    if (i > 0 && support[i] != support[i - 1] && !upper.empty()) {
+      upper.emplace_back(walk.t[i], upper.back().y());
+      lower.emplace_back(walk.t[i], lower.back().y());
+    }
+    upper.emplace_back(walk.t[i], bands[i].high);
+    lower.emplace_back(walk.t[i], bands[i].low);
   }
-  return areas;
+  upper.insert(upper.end(), lower.rbegin(), lower.rend());
+  return {.name = "support", .corners = std::move(upper)};
 }
 
 Panel Strip(const PlottedRun& run, const PlottedWalk& walk, int k) {
   Panel panel;
   const Vector2d size = run.place.robot.sole_size;
-  panel.areas = BandAreas(walk, size, k, 0.0, style::Grey(0.91));
+  panel.areas.push_back(BandArea(walk, size, k, 0.0));
+  panel.areas.back().fill = style::Grey(0.9);
   if (walk.demanded_zmp && *walk.demanded_zmp > 0.0) {
-    for (Area& area : BandAreas(walk, size, k, *walk.demanded_zmp, style::Grey(0.79))) {
-      area.name = "support less what is demanded";
-      panel.areas.push_back(std::move(area));
-    }
+    panel.areas.push_back(BandArea(walk, size, k, *walk.demanded_zmp));
+    panel.areas.back().name = "demanded";
+    panel.areas.back().fill = style::Grey(0.8);
   }
   const std::string axis = k == 0 ? "x" : "y";
-  panel.lines.push_back({.name = walk.method + "/com_" + axis + "_m",
-                         .points = walk.OverTime("com_" + axis + "_m"),
-                         .stroke = {.color = style::kBlack, .width = 1.0},
-                         .label = "CoM"});
   panel.lines.push_back({.name = walk.method + "/zmp_" + axis + "_m",
                          .points = walk.OverTime("zmp_" + axis + "_m"),
-                         .stroke = {.color = style::kVermilion, .width = 0.9, .dash = {3.0, 1.3}},
+                         .stroke = style::ZmpLine(),
                          .label = "ZMP"});
+  panel.lines.push_back({.name = walk.method + "/com_" + axis + "_m",
+                         .points = walk.OverTime("com_" + axis + "_m"),
+                         .stroke = style::ComLine(),
+                         .label = "CoM"});
+  if (k == 1) {
+    panel.areas.back().label = "support";
+    panel.areas.back().ink = style::Grey(0.35);
+  }
   return panel;
 }
 
