@@ -49,7 +49,9 @@ CommandAction DeclarePlot(CLI::App* app, const Toolbox& tools) {
   const auto command = std::make_shared<PlotCommand>();
   command->tools = tools;
   const auto width = std::make_shared<std::string>("3.5in");
-  app->add_option("RUN", command->request.folder, "folder of a run, a comparison or a sweep")
+  app->add_option(
+         "RUN", command->request.folder,
+         "folder of a run, a comparison or a sweep; or a table *.csv of `halfstep list half-steps`")
       ->required();
   app->add_option("OUT", command->out, "the file: .pdf, .svg or .png")->required();
   app->add_option("--what", command->request.what,

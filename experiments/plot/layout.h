@@ -14,14 +14,14 @@ using PageBox = Eigen::AlignedBox2d;
 
 /// A text on the page.
 struct PlacedText {
-  std::string text;
+  std::string text;      ///< what is written
   Eigen::Vector2d at;    ///< where its line begins [pt]
   PageBox box;           ///< what it covers
   bool upwards = false;  ///< turned by 90°, to be read from below to above
   bool bold = false;
   bool halo = false;    ///< on white, for it may lie on lines
   bool direct = false;  ///< beside the line or area that it names
-  Color ink = {};
+  Color ink = {};       ///< of the text
 };
 
 /// A panel in its place.
@@ -35,10 +35,11 @@ struct PlacedPanel {
 
 /// A figure in which everything has its place.
 struct PlacedFigure {
-  std::string title;                 ///< of the file
-  double width = 0.0, height = 0.0;  ///< of the page [pt]
-  std::vector<PlacedPanel> panels;
-  std::vector<PlacedText> texts;
+  std::string title;                ///< of the file
+  double width = 0.0;               ///< of the page [pt]
+  double height = 0.0;              ///< of the page [pt]
+  std::vector<PlacedPanel> panels;  ///< row by row
+  std::vector<PlacedText> texts;    ///< all that is written
 };
 
 /// Says how wide a text is [pt].

@@ -4,6 +4,7 @@
 
 #include "experiments/plot/style.h"
 #include "experiments/plot/subjects.h"
+#include "experiments/tables/margin_columns.h"
 #include "smoothing/margins/margin.h"
 #include "wpg/files/input_error.h"
 
@@ -13,7 +14,7 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr size_t kMostFamilies = 8;   // those with the least slack
-constexpr double kShownScales = 6.0;  // above what is demanded, at most
+constexpr double kShownScales = 8.0;  // above what is demanded, at most
 
 /// What is proved of one family along a walk.
 struct Proved {
@@ -21,7 +22,7 @@ struct Proved {
   double demanded = 0.0;
   double least = 1e300;          // of all times [its unit]
   std::vector<Vector2d> points;  // (t, margin at least), a step an interval
-  std::vector<Vector2d> found;   // (t, margin) in the middle of each
+  std::vector<Vector2d> found;   // (t, margin): rows of trajectory.csv, else the middle of each
 
   double slack() const { return (least - demanded) / Scale(family); }
 };
@@ -89,6 +90,10 @@ std::map<std::string, Proved> ReadProved(const PlottedWalk& walk) {
     one.points.emplace_back(end[i], shown);
   }
   std::erase_if(proved, [](const auto& entry) { return entry.second.least > 1e299; });
+  for (auto& [name, one] : proved) {
+    const std::optional<std::string> column = TrajectoryColumnOf(one.family);
+    if (column && walk.rows.Has(*column)) one.found = walk.OverTime(*column);
+  }
   return proved;
 }
 
@@ -175,8 +180,10 @@ std::vector<Row> MarginsRows(const PlottedRun& run) {
     if (i % 2 == 0) rows.emplace_back();
     Panel panel = FamilyPanel(run, walks, names[i]);
     panel.numbers_below = i + 2 >= names.size();
-    if (i > 0 || !run.compares()) {
-      for (Line& line : panel.lines) line.label = "";
+    for (Line& line : panel.lines) {
+      if (i > 0) line.label = "";
+      if (i == 0 && !run.compares())
+        line.label = line.name.ends_with("proved") ? "proved" : "sampled";
     }
     rows.back().push_back(std::move(panel));
   }

@@ -70,6 +70,14 @@ std::string Title(const PlotRequest& request, const std::string& name) {
 Figure FigureOf(const PlotRequest& request, const Toolbox& tools) {
   const fs::path folder(request.folder);
   Figure figure{.title = "", .width = request.width, .rows = {}};
+  if (folder.extension() == ".csv") {
+    if (!request.what.empty() || !request.methods.empty()) {
+      throw InputError({"--what, --method: not of " + request.folder + " (valid: of a folder)"});
+    }
+    figure.title = folder.stem().string();
+    figure.rows = HalfStepsRows(folder);
+    return figure;
+  }
   if (IsComparison(folder) || IsSweep(folder)) {
     const auto subjects = IsSweep(folder) ? SweepSubjects() : ComparisonSubjects();
     figure.title = Title(request, folder.filename().string());

@@ -10,7 +10,8 @@ namespace halfstep::plot {
 
 /// What is asked for.
 struct PlotRequest {
-  std::string folder;                   ///< of a run, a comparison or a sweep
+  /// Of a run, a comparison or a sweep; or a table that `halfstep list half-steps` printed, *.csv.
+  std::string folder;
   std::vector<std::string> what;        ///< names of subjects; none: the first of such a folder
   std::vector<std::string> methods;     ///< of runs at most two, to be compared; none: chosen
   double width = 3.5 * kPointsPerInch;  ///< of the page [pt]

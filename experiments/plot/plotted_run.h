@@ -16,7 +16,7 @@ namespace halfstep::plot {
 
 /// One walk of a run, as its tables have it.
 struct PlottedWalk {
-  std::string method;
+  std::string method;            ///< its name
   double duration = 0.0;         ///< [s]
   std::filesystem::path folder;  ///< in the run
   CsvTable rows;                 ///< of trajectory.csv
@@ -41,10 +41,10 @@ struct PlottedWalk {
 
 /// A run folder, as far as it is drawn.
 struct PlottedRun {
-  std::filesystem::path folder;
-  std::string name;
-  Place place;  ///< robot and scene
-  double joint_speed_scale = 1.0;
+  std::filesystem::path folder;    ///< of the run
+  std::string name;                ///< of its scenario
+  Place place;                     ///< robot and scene
+  double joint_speed_scale = 1.0;  ///< of the robot's limits, as the config has it
   std::vector<PlottedWalk> walks;  ///< that are drawn: one or two
 
   bool compares() const { return walks.size() > 1; }  ///< two walks are drawn
@@ -59,7 +59,8 @@ PlottedRun ReadPlottedRun(const std::filesystem::path& run, const std::vector<st
 
 /// The least and the largest number of columns of points; grows from empty.
 struct Extent {
-  double low = 1e300, high = -1e300;
+  double low = 1e300;    ///< the least
+  double high = -1e300;  ///< the largest
   /// Takes in what is finite.
   void Add(double value);
   /// Takes in coordinate `k` of points.

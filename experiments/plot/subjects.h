@@ -11,9 +11,9 @@ namespace halfstep::plot {
 
 /// A thing that can be drawn of a run: its name on the command line, and its panels.
 struct RunSubject {
-  const char* name;
-  const char* what;  ///< for the help
-  std::vector<Row> (*rows)(const PlottedRun& run);
+  const char* name;                                 ///< as in `--what`
+  const char* what;                                 ///< for the help
+  std::vector<Row> (*rows)(const PlottedRun& run);  ///< at least one
 };
 /// All of them. To add one, write its file and a row in the source.
 std::span<const RunSubject> RunSubjects();
@@ -21,8 +21,9 @@ std::span<const RunSubject> RunSubjects();
 /// The same of a folder that `halfstep compare` or `halfstep sweep` wrote, for the methods that are
 /// named; none: all.
 struct FolderSubject {
-  const char* name;
-  const char* what;
+  const char* name;  ///< as in `--what`
+  const char* what;  ///< for the help
+  /// At least one.
   std::vector<Row> (*rows)(const std::filesystem::path& folder,
                            const std::vector<std::string>& methods);
 };
@@ -58,5 +59,8 @@ std::vector<Row> AnytimeRows(const std::filesystem::path& comparison,
 /// Durations against the first key that varies; a line for each value of the second.
 std::vector<Row> SweepRows(const std::filesystem::path& sweep,
                            const std::vector<std::string>& methods);
+
+/// Places of the swing foot beside the support foot, of a table of `halfstep list half-steps`.
+std::vector<Row> HalfStepsRows(const std::filesystem::path& table);
 
 }  // namespace halfstep::plot

@@ -8,7 +8,8 @@ namespace halfstep::plot {
 
 /// An interval of one coordinate in W [m]; NaN where it is empty.
 struct SupportBand {
-  double low = 0.0, high = 0.0;
+  double low = 0.0;   ///< where it begins
+  double high = 0.0;  ///< where it ends
 };
 
 /// At each row of a walk between which numbers coordinate `k` (0: x, 1: y) of the ZMP may be, where

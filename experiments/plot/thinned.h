@@ -6,7 +6,7 @@
 namespace halfstep::plot {
 
 /// A line with fewer points of which no point of the given one is farther than `tolerance`; each
-/// stretch between points that are not finite by itself. Source: [DouglasPeucker1973].
+/// stretch between points that are not finite by itself. The method is that of Douglas and Peucker.
 std::vector<Eigen::Vector2d> Thinned(const std::vector<Eigen::Vector2d>& points, double tolerance);
 
 }  // namespace halfstep::plot
