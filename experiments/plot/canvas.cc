@@ -105,7 +105,7 @@ void Hatch(cairo_t* c, const PageBox& box) {
 }
 
 void DrawArea(cairo_t* c, const PlacedPanel& panel, const Area& area) {
-  Path(c, OnThePage(panel, area.corners));
+  Path(c, Thinned(OnThePage(panel, area.corners), kThinning));
   cairo_close_path(c);
   if (area.fill) {
     SetColor(c, *area.fill);

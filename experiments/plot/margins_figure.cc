@@ -133,7 +133,7 @@ void AddWalk(const PlottedWalk& walk, const Proved& proved, const std::string& n
   const Stroke stroke = WalkStroke(i);
   panel->lines.push_back({.name = walk.method + "/" + name + " proved",
                           .points = scaled(proved.points),
-                          .stroke = {.color = style::Lighter(stroke.color, 0.55), .width = 0.5}});
+                          .stroke = {.color = style::Lighter(stroke.color, 0.4), .width = 0.5}});
   panel->lines.push_back({.name = walk.method + "/" + name,
                           .points = scaled(proved.found),
                           .stroke = stroke,

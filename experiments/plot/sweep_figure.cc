@@ -75,6 +75,8 @@ std::vector<Row> SweepRows(const std::filesystem::path& sweep,
                                  certified = table.Texts("certified");
   const std::vector<std::optional<double>> durations = table.NumbersOrEmpty("duration_s");
   const std::vector<double> x = table.Numbers(across->key);
+  const std::vector<std::string> seconds =
+      second == keys.end() ? std::vector<std::string>{} : table.Texts(second->key);
   std::vector<std::string> all;
   for (const std::string& name : names) {
     if (name != "none" && std::ranges::find(all, name) == all.end()) all.push_back(name);
@@ -99,7 +101,7 @@ std::vector<Row> SweepRows(const std::filesystem::path& sweep,
       std::map<double, double> best;  // the shortest where other keys vary, too
       for (size_t i = 0; i < names.size(); ++i) {
         if (names[i] != method || certified[i] != "true" || !durations[i]) continue;
-        if (second != keys.end() && table.Texts(second->key)[i] != lines_of[k]) continue;
+        if (!seconds.empty() && seconds[i] != lines_of[k]) continue;
         const auto [at, is_new] = best.emplace(x[i], *durations[i]);
         at->second = std::min(at->second, *durations[i]);
       }
