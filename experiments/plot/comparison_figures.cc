@@ -164,7 +164,7 @@ std::vector<Row> ProfilesRows(const fs::path& comparison, const std::vector<std:
                .low = 1.0,
                .high = 1.1 * most,
                .logarithmic = true};
-    panel.y = {.label = "solved", .low = -0.04, .high = 1.06};
+    panel.y = {.label = "fraction solved", .low = -0.04, .high = 1.06};
     for (size_t m = 0; m < chosen.size(); ++m) {
       Line line{.name = chosen[m] + "/" + gap,
                 .points = {},

@@ -69,7 +69,7 @@ bool Inside(const std::vector<Vector2d>& polygon, const Vector2d& p) {
 class LabelPlaces {
  public:
   LabelPlaces(const PlacedPanel& panel, const TextMeasure& measure, std::vector<PageBox> taken)
-      : panel_(panel), measure_(measure), taken_(std::move(taken)) {
+      : panel_(&panel), measure_(&measure), taken_(std::move(taken)) {
     for (const Area& area : panel.panel.areas) {
       Drawn edge{.points = {}, .edge = true};
       for (const Vector2d& corner : area.corners) edge.points.push_back(panel.ToPage(corner));
@@ -80,7 +80,7 @@ class LabelPlaces {
   }
 
   void Add(const std::string& text, const Color& ink, size_t own, bool only_inside = false) {
-    size_ = {measure_(text, false), style::kCapHeight + style::kDescent};
+    size_ = {(*measure_)(text, false), style::kCapHeight + style::kDescent};
     best_cost_ = std::numeric_limits<double>::infinity();
     if (drawn_[own].edge) TryInside(own);
     if (best_cost_ > 1.0 && !only_inside) TryBeside(own);
@@ -94,6 +94,7 @@ class LabelPlaces {
                        .direct = true,
                        .ink = ink});
   }
+  std::ptrdiff_t count() const { return std::ssize(labels_); }
   std::vector<PlacedText>&& labels() { return std::move(labels_); }
 
  private:
@@ -101,7 +102,7 @@ class LabelPlaces {
     const std::vector<Vector2d>& corners = drawn_[own].points;
     PageBox bounds;
     for (const Vector2d& corner : corners) bounds.extend(corner);
-    bounds.clamp(panel_.frame);
+    bounds.clamp(panel_->frame);
     if (bounds.isEmpty()) return;
     constexpr int kSteps = 12;
     for (int i = 0; i <= kSteps; ++i) {
@@ -145,7 +146,7 @@ class LabelPlaces {
   }
 
   void AroundAnchor(const Vector2d& anchor, size_t own, double share) {
-    if (!panel_.frame.contains(anchor)) return;
+    if (!panel_->frame.contains(anchor)) return;
     for (int i = -1; i <= 1; ++i) {
       for (int j = -1; j <= 1; ++j) {
         if (i == 0 && j == 0) continue;
@@ -159,7 +160,8 @@ class LabelPlaces {
   }
 
   void Try(const PageBox& box, size_t own, double cost, bool beside) {
-    const PageBox within(panel_.frame.min() + Vector2d(1, 1), panel_.frame.max() - Vector2d(1, 1));
+    const PageBox within(panel_->frame.min() + Vector2d(1, 1),
+                         panel_->frame.max() - Vector2d(1, 1));
     if (!within.contains(box)) return;
     const PageBox wider(box.min() - Vector2d(0.8, 0.8), box.max() + Vector2d(0.8, 0.8));
     for (const PageBox& other : taken_) {
@@ -189,8 +191,8 @@ class LabelPlaces {
     best_ = box;
   }
 
-  const PlacedPanel& panel_;
-  const TextMeasure& measure_;
+  const PlacedPanel* panel_;
+  const TextMeasure* measure_;
   std::vector<PageBox> taken_;
   std::vector<Drawn> drawn_;  // edges of the areas, then the lines
   std::vector<PlacedText> labels_;
@@ -206,17 +208,22 @@ std::vector<PlacedText> DirectLabels(const PlacedPanel& panel, const TextMeasure
   LabelPlaces places(panel, measure, taken);
   const std::vector<Area>& areas = panel.panel.areas;
   const std::vector<Line>& lines = panel.panel.lines;
-  // What has least choice first.
-  for (const bool inside : {true, false}) {
+  const auto add_areas = [&](bool inside) {
     for (size_t i = 0; i < areas.size(); ++i) {
       if (areas[i].label.empty() || areas[i].label_inside != inside) continue;
       places.Add(areas[i].label, areas[i].ink, i, inside);
     }
-    for (size_t i = 0; inside && i < lines.size(); ++i) {
-      if (lines[i].label.empty()) continue;
-      places.Add(lines[i].label, lines[i].stroke.color, areas.size() + i);
-    }
+  };
+  // What has least choice first; numbers of footprints all or none, but for a few.
+  add_areas(true);
+  const auto numbers = std::ranges::count_if(
+      areas, [](const Area& area) { return area.label_inside && !area.label.empty(); });
+  if (2 * places.count() < numbers) places = LabelPlaces(panel, measure, taken);
+  for (size_t i = 0; i < lines.size(); ++i) {
+    if (lines[i].label.empty()) continue;
+    places.Add(lines[i].label, lines[i].stroke.color, areas.size() + i);
   }
+  add_areas(false);
   return places.labels();
 }
 

@@ -3,6 +3,7 @@
 #include "experiments/plot/silhouette.h"
 #include "experiments/plot/style.h"
 #include "experiments/plot/subjects.h"
+#include "planner/scene/solid_body.h"
 
 namespace halfstep::plot {
 namespace {
@@ -36,29 +37,40 @@ Line SoleLine(const PlottedWalk& walk, Side side, const std::string& column, dou
           .label = std::string(halfstep::Name(side))};
 }
 
-// The obstacles that reach into what the soles cover seen from above.
-std::vector<Area> ObstaclesInTheWay(const PlottedRun& run, int ahead) {
+// Whether what bounds hold, seen from above, is in the way of a sole.
+bool InTheWay(const PlottedRun& run, const Eigen::AlignedBox3d& bounds) {
   const double reach = 0.5 * run.place.robot.sole_size.norm() + kBeside;
-  std::vector<Area> areas;
-  for (const Obstacle& obstacle : run.place.scene.obstacles) {
-    const Eigen::AlignedBox3d bounds = BoundsOf(obstacle.shape, obstacle.X_WO);
-    const Eigen::AlignedBox2d above(bounds.min().head<2>(), bounds.max().head<2>());
-    bool meets = false;
-    for (const PlottedWalk& walk : run.walks) {
-      for (const Side side : {Side::kLeft, Side::kRight}) {
-        for (const Pose2& sole : walk.Soles(side)) {
-          meets = meets || above.squaredExteriorDistance(sole.position()) < reach * reach;
-        }
+  const Eigen::AlignedBox2d above(bounds.min().head<2>(), bounds.max().head<2>());
+  for (const PlottedWalk& walk : run.walks) {
+    for (const Side side : {Side::kLeft, Side::kRight}) {
+      for (const Pose2& sole : walk.Soles(side)) {
+        if (above.squaredExteriorDistance(sole.position()) < reach * reach) return true;
       }
     }
-    if (!meets) continue;
-    for (std::vector<Vector2d>& corners : Silhouette(obstacle, ahead, 2)) {
-      for (Vector2d& corner : corners) corner *= kCentimetres;
-      areas.push_back({.name = obstacle.name,
-                       .corners = std::move(corners),
-                       .fill = style::Grey(0.6),
-                       .ink = style::Grey(0.15)});
-    }
+  }
+  return false;
+}
+
+void AddSilhouette(const PlottedRun& run, const Obstacle& obstacle, int ahead, double grey,
+                   std::vector<Area>* areas) {
+  if (!InTheWay(run, BoundsOf(obstacle.shape, obstacle.X_WO))) return;
+  for (std::vector<Vector2d>& corners : Silhouette(obstacle, ahead, 2)) {
+    for (Vector2d& corner : corners) corner *= kCentimetres;
+    areas->push_back({.name = obstacle.name,
+                      .corners = std::move(corners),
+                      .fill = style::Grey(grey),
+                      .ink = style::Grey(0.15)});
+  }
+}
+
+// Solids of the ground and obstacles that soles go over or beside.
+std::vector<Area> InTheWayFromTheSide(const PlottedRun& run, int ahead) {
+  std::vector<Area> areas;
+  for (const GroundSolid& solid : run.place.scene.ground->Solids()) {
+    AddSilhouette(run, BodyOf(solid), ahead, 0.88, &areas);
+  }
+  for (const Obstacle& obstacle : run.place.scene.obstacles) {
+    AddSilhouette(run, obstacle, ahead, 0.6, &areas);
   }
   if (areas.size() == 1) areas.front().label = areas.front().name;
   return areas;
@@ -94,7 +106,7 @@ std::vector<Row> FootRows(const PlottedRun& run) {
 
 std::vector<Row> SideRows(const PlottedRun& run) {
   const std::string ahead = Ahead(run);
-  Panel common{.areas = ObstaclesInTheWay(run, ahead == "x" ? 0 : 1)};
+  Panel common{.areas = InTheWayFromTheSide(run, ahead == "x" ? 0 : 1)};
   Extent x, z;
   z.Add(0.0);
   std::vector<Panel> panels;
