@@ -19,7 +19,7 @@ constexpr double kOverEdge = 0.8;  // the same of an area's edge
 constexpr double kUnclear = 3.0;   // of each point that another line is nearer than its own + 4
 
 /// What is drawn as a line on the page.
-struct Drawn {
+struct Track {
   std::vector<Vector2d> points;  // [pt], about a point apart at least; NaN: a break
   bool edge = false;             // of an area
 };
@@ -71,7 +71,7 @@ class LabelPlaces {
   LabelPlaces(const PlacedPanel& panel, const TextMeasure& measure, std::vector<PageBox> taken)
       : panel_(&panel), measure_(&measure), taken_(std::move(taken)) {
     for (const Area& area : panel.panel.areas) {
-      Drawn edge{.points = {}, .edge = true};
+      Track edge{.points = {}, .edge = true};
       for (const Vector2d& corner : area.corners) edge.points.push_back(panel.ToPage(corner));
       if (!edge.points.empty()) edge.points.push_back(edge.points.front());
       drawn_.push_back(std::move(edge));
@@ -194,7 +194,7 @@ class LabelPlaces {
   const PlacedPanel* panel_;
   const TextMeasure* measure_;
   std::vector<PageBox> taken_;
-  std::vector<Drawn> drawn_;  // edges of the areas, then the lines
+  std::vector<Track> drawn_;  // edges of the areas, then the lines
   std::vector<PlacedText> labels_;
   Vector2d size_{0, 0};  // of the label that is being placed
   PageBox best_;

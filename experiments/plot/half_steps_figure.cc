@@ -21,6 +21,11 @@ Vector2d Above(double x, double y) { return {-y, x}; }
 
 std::vector<Row> HalfStepsRows(const std::filesystem::path& table) {
   const CsvTable csv = ReadCsv(table.string());
+  if (!csv.Has("half_step")) {
+    throw InputError(
+        {csv.path +
+         ": is no table of `halfstep list half-steps` (valid: such a table, or a folder)"});
+  }
   const std::vector<double> x = csv.Numbers("x_m"), y = csv.Numbers("y_m"),
                             yaw = csv.Numbers("yaw_rad");
   if (x.empty()) throw InputError({csv.path + ": has no half-step"});

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <stdexcept>
 
 #include "experiments/plot/direct_labels.h"
 #include "experiments/plot/style.h"
 #include "experiments/plot/ticks.h"
 #include "wpg/elementary.h"
-#include "wpg/files/number_text.h"
+#include "wpg/files/input_error.h"
 
 namespace halfstep::plot {
 namespace {
@@ -66,8 +65,8 @@ class Placing {
     }
     const double width = free / static_cast<double>(columns);
     if (width < kLeastFrame) {
-      throw std::runtime_error(
-          "the figure is too narrow for its numbers (a larger --width, or less at once)");
+      throw InputError(
+          {"--width: leaves no room for frames beside their numbers (valid: a larger one)"});
     }
     return width;
   }

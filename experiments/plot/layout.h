@@ -18,10 +18,10 @@ struct PlacedText {
   Eigen::Vector2d at;    ///< where its line begins [pt]
   PageBox box;           ///< what it covers
   bool upwards = false;  ///< turned by 90°, to be read from below to above
-  bool bold = false;
-  bool halo = false;    ///< on white, for it may lie on lines
-  bool direct = false;  ///< beside the line or area that it names
-  Color ink = {};       ///< of the text
+  bool bold = false;     ///< as titles are
+  bool halo = false;     ///< on white, for it may lie on lines
+  bool direct = false;   ///< beside the line or area that it names
+  Color ink = {};        ///< of the text
 };
 
 /// A panel in its place.
@@ -46,7 +46,7 @@ struct PlacedFigure {
 using TextMeasure = std::function<double(const std::string& text, bool bold)>;
 
 /// Gives everything its place; panels of rows with equally many have their frames below each other.
-/// Throws std::runtime_error when the width leaves no room for frames.
+/// Throws InputError when the width leaves no room for frames.
 PlacedFigure PlaceFigure(const Figure& figure, const TextMeasure& measure);
 
 }  // namespace halfstep::plot

@@ -100,12 +100,8 @@ TEST(PlotLayout, SaysThatAWidthIsTooSmall) {
   Figure figure = TwoWaves();
   figure.width = 72.0;
   figure.rows[0].push_back(figure.rows[0][0]);
-  try {
-    PlaceFigure(figure, Measure);
-    FAIL();
-  } catch (const std::runtime_error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("too narrow"));
-  }
+  EXPECT_THAT(RefusalOf([&] { PlaceFigure(figure, Measure); }),
+              HasSubstr("--width: leaves no room for frames"));
 }
 
 TEST(PlotLabels, AreBesideTheirOwnLine) {

@@ -192,6 +192,9 @@ TEST_F(PlotCommandTest, RefusesWhatItCannotDraw) {
   EXPECT_THAT(Refusal({"run", "a.eps"}),
               HasSubstr("OUT: 'a.eps' (valid: a name that ends in .pdf, .svg or .png)"));
   EXPECT_THAT(Refusal({"run", "--width", "wide", "a.pdf"}), HasSubstr("--width: 'wide'"));
+  EXPECT_THAT(Refusal({"run", "--what", "joints", "--width", "1in", "a.pdf"}),
+              HasSubstr("--width: leaves no room"));
+  EXPECT_THAT(Refusal({"run/footsteps.csv", "a.pdf"}), HasSubstr("is no table of"));
   EXPECT_THAT(Refusal({"nowhere", "a.pdf"}), HasSubstr("nowhere: no such run folder"));
   EXPECT_THAT(Refusal({"run", "--what", "pareto", "a.pdf"}), HasSubstr("has no pareto.csv"));
 }
