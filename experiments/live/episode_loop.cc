@@ -39,6 +39,7 @@ Episode EpisodeLoop::Run(const std::array<Foothold, 2>& start) {
   executor_.emplace(first.plan, first.grant);
   asked_about_ = checked_ = world_;
   HandOver(first, 0.0);
+  TellCommand(0.0, nullptr);
   Begins(0);
   for (long tick = 0;; ++tick) {
     const double now = static_cast<double>(tick) * options_.period;
@@ -118,10 +119,12 @@ void EpisodeLoop::Sense(double now) {
       Tell(now, "lost", Formatted("frame of %.3f s", frame->taken));
       continue;
     }
+    const std::shared_ptr<const Course> before = world_->course;
     WorldUpdate update = Updated(*world_, past_, std::move(*frame->world), options_);
     world_ = std::make_shared<const World>(std::move(update.world));
     Know(now);
     Tell(now, "measured", Formatted("frame of %.3f s", frame->taken));
+    TellCommand(now, before);
     for (const Contradiction& one : update.contradictions) {
       Tell(now, "contradicted", one.Text());
     }
@@ -202,6 +205,8 @@ void EpisodeLoop::Ask(double now) {
                 .now = now,
                 .hand_over = now + patience_ + 2.0 * options_.period,
                 .world = asked_about_,
+                .course = course_,
+                .refused = refused_,
                 .shorten = tries_ > 0,
                 .used_up = used_up_});
   thinking_ = true;
@@ -213,22 +218,31 @@ void EpisodeLoop::Take(const Proposal& proposal, double now) {
   thinking_ = false;
   const bool differs = DiffersClearly(*checked_, *asked_about_);
   if (differs) tries_ = kTries;
-  const bool in_vain = stuck_ && executor_->stopped() && !differs;
+  const bool at_end = world_->course && executor_->rests_from() <= now;
+  const bool in_vain = stuck_ && (executor_->stopped() || at_end) && !differs;
   retry_ = in_vain ? std::min(2.0 * retry_, kLongestRetry) : kRetry;
   checked_ = asked_about_;
-  stuck_ = proposal.kind == ProposalKind::kUnsafe;
+  stuck_ = proposal.kind == ProposalKind::kUnsafe && !proposal.refuses;
   const bool used_up = proposal.nodes >= replanner_.config().experiment.planner.max_nodes;
   used_up_ = stuck_ && used_up ? used_up_ + 1 : 0;
   const bool searched = proposal.planned.status != PlanStatus::kNotRun;
   if (world_->sound_since > asked_about_->version) {
     Tell(now, "refused", "the world has changed meanwhile");
     again_ = true;
-  } else if (proposal.first_changed < 0 || stuck_) {
+  } else if (proposal.first_changed < 0 || stuck_ || proposal.refuses) {
     if (stuck_) Tell(now, "unsafe", proposal.reason, proposal.grant.through);
+    if (proposal.refuses) {
+      Tell(now, "refused", proposal.reason);
+      refused_ = asked_about_->course->number;
+      again_ = true;
+    } else if (!stuck_) {
+      course_ = proposal.course;
+    }
     robot_through_ = proposal.robot_through;
     executor_->Take(proposal.grant);
     record_.grants.push_back({now, walk(), proposal.grant});
-    if (searched && !stuck_ && --tries_ > 0) again_ = true;
+    const bool shortens = !asked_about_->course;
+    if (searched && shortens && !stuck_ && --tries_ > 0) again_ = true;
   } else {
     again_ = true;
     const std::string refused = executor_->TakeOver(proposal.plan, proposal.grant, now);
@@ -244,6 +258,7 @@ void EpisodeLoop::Take(const Proposal& proposal, double now) {
 void EpisodeLoop::HandOver(const Proposal& proposal, double now) {
   smoothed_ = proposal.smoothed;
   robot_through_ = proposal.robot_through;
+  course_ = proposal.course;
   record_.walks.push_back({.t = now,
                            .kind = proposal.kind,
                            .reason = proposal.reason,
@@ -253,7 +268,8 @@ void EpisodeLoop::HandOver(const Proposal& proposal, double now) {
                            .measured = asked_about_->measured_at,
                            .check_s = proposal.check_s,
                            .plan_s = proposal.plan_s,
-                           .smooth_s = proposal.smooth_s});
+                           .smooth_s = proposal.smooth_s,
+                           .effort = proposal.effort});
   record_.grants.push_back({now, walk(), proposal.grant});
   Tell(now, "handed_over", std::string(Name(proposal.kind)) + ": " + proposal.reason,
        proposal.first_changed);
@@ -266,17 +282,19 @@ bool EpisodeLoop::Ends(double now) {
   const std::array<Foothold, 2> stance =
       StanceAfter(executor_->plan().sequence, executor_->begun());
   const bool on_both = executor_->begun() % 2 == 1;
-  const bool arrived =
-      at_rest && on_both && now > sensor_.QuietFrom() && world_->goal.ContainsStance(stance);
+  const bool arrived = at_rest && on_both && !world_->course && now > sensor_.QuietFrom() &&
+                       world_->goal.ContainsStance(stance);
   const bool fell = hooks_.fallen && hooks_.fallen();
   const std::string lost = hooks_.lost ? hooks_.lost() : "";
   if (!arrived && !over && !ended && !fell && lost.empty()) return false;
   if (!lost.empty()) record_.message = lost;
   if (fell) record_.message = Formatted("the robot fell at %.3f s", now);
-  record_.ending = fell            ? EpisodeEnding::kFell
-                   : !lost.empty() ? EpisodeEnding::kUncontrolled
-                   : arrived       ? EpisodeEnding::kArrived
-                   : !ended        ? (at_rest ? EpisodeEnding::kStuck : EpisodeEnding::kTooLong)
+  record_.ending = fell                           ? EpisodeEnding::kFell
+                   : !lost.empty()                ? EpisodeEnding::kUncontrolled
+                   : arrived                      ? EpisodeEnding::kArrived
+                   : !ended                       ? (!at_rest         ? EpisodeEnding::kTooLong
+                                                     : world_->course ? EpisodeEnding::kEnded
+                                                                      : EpisodeEnding::kStuck)
                    : hooks_.stop.stop_requested() ? EpisodeEnding::kInterrupted
                                                   : EpisodeEnding::kEnded;
   if (record_.ending == EpisodeEnding::kEnded) {
@@ -285,6 +303,12 @@ bool EpisodeLoop::Ends(double now) {
   record_.end = now;
   record_.stopped = executor_->stopped();
   return true;
+}
+
+void EpisodeLoop::TellCommand(double t, const std::shared_ptr<const Course>& before) {
+  const std::shared_ptr<const Course>& now = world_->course;
+  if ((before ? before->number : 0) == (now ? now->number : 0)) return;
+  Tell(t, "commanded", now ? now->Text() : "walk to the goal");
 }
 
 void EpisodeLoop::Know(double t) {

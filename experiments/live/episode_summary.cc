@@ -36,7 +36,8 @@ EpisodeSummary Summarize(const Episode& episode, const TrueWorld* truth, const R
     if (walk.kind == ProposalKind::kShortened) ++summary.shortened;
     if (walk.kind == ProposalKind::kSmoothed) ++summary.smoothed;
     if (walk.kind == ProposalKind::kResumed) ++summary.resumed;
-    if (walk.kind != ProposalKind::kChanged) continue;
+    const bool commanded = walk.kind == ProposalKind::kCommanded;
+    if (walk.kind != ProposalKind::kChanged && !commanded) continue;
     ++summary.changed;
     summary.latencies.push_back(walk.t - walk.measured);
     int begun = 0;

@@ -11,11 +11,11 @@ namespace halfstep {
 
 PlanResult Replanner::Plan(const std::array<Foothold, 2>& stance,
                            const std::optional<StepState>& in_air, const PreparedWorld& among,
-                           const NearRest* near, bool rests, std::int64_t max_nodes,
-                           std::mt19937_64& random) const {
+                           const GoalRegion& goal, const NearRest* near, bool rests,
+                           std::int64_t max_nodes, std::mt19937_64& random) const {
   const bool by_volumes = half_steps_.volumes() != nullptr;
   const auto search = [&](const HalfStepQuery& query, std::int64_t nodes) {
-    PlanResult found = Search(stance, in_air, among, near, query, nodes, random);
+    PlanResult found = Search(stance, in_air, among, goal, near, query, nodes, random);
     if (!by_volumes) found.nodes += found.queries;
     return found;
   };
@@ -38,13 +38,14 @@ PlanResult Replanner::Plan(const std::array<Foothold, 2>& stance,
 
 PlanResult Replanner::Search(const std::array<Foothold, 2>& stance,
                              const std::optional<StepState>& in_air, const PreparedWorld& among,
-                             const NearRest* near, const HalfStepQuery& query,
-                             std::int64_t max_nodes, std::mt19937_64& random) const {
+                             const GoalRegion& goal, const NearRest* near,
+                             const HalfStepQuery& query, std::int64_t max_nodes,
+                             std::mt19937_64& random) const {
   const PlannerConfig& options = config_.experiment.planner;
   PlanRequest request = half_steps_.Request(query);
   request.start = stance;
   request.in_air = in_air;
-  request.goal = among.world.goal;
+  request.goal = goal;
   request.cost = options.Cost();
   if (const auto& w = options.workspace; !w.empty()) {
     request.workspace = {Eigen::Vector2d(w[0], w[1]), Eigen::Vector2d(w[2], w[3])};
