@@ -298,7 +298,8 @@ bool EpisodeLoop::Ends(double now) {
                    : hooks_.stop.stop_requested() ? EpisodeEnding::kInterrupted
                                                   : EpisodeEnding::kEnded;
   if (record_.ending == EpisodeEnding::kEnded) {
-    record_.message = "a client ended it, and the robot has come to rest";
+    record_.message = ended ? "a client ended it, and the robot has come to rest"
+                            : "the time was up, and the robot rests as it was commanded";
   }
   record_.end = now;
   record_.stopped = executor_->stopped();

@@ -328,9 +328,10 @@ TEST(CommandedEpisode, ThinkingForgetsWhatIsPast) {
   const PlayedEpisode played = PlayScript({Walk(0.0, 0.06, 0, 0)}, 75.0);
   const Episode& episode = played.episode;
   const WalkPlan& plan = episode.walks.back().plan;
-  Situation s{.plan = plan,
-              .smoothed = std::vector<bool>(static_cast<size_t>(plan.sequence.num_junctions())),
-              .begun = episode.begun.back().half_step};
+  Situation s;
+  s.plan = plan;
+  s.smoothed.resize(static_cast<size_t>(plan.sequence.num_junctions()));
+  s.begun = episode.begun.back().half_step;
   ASSERT_GE(s.begun, 40) << "the walk is too short for this test";
   s.grant.through = s.robot_through = s.begun + 1;
   const std::optional<RecentPart> recent = RecentPart::Of(s);
