@@ -151,7 +151,7 @@ def at_random(halfstep, minutes, folder, seed):
           f"{len(plans)} walks, {refused} refused, {unsafe} times blocked; {unproved} half-steps "
           f"without a grant; hand-overs differ by {difference:.3g}; LIPM residual {first:.3g} m in "
           f"the first minute, {last:.3g} m in the last; "
-          f"{verified.stdout.strip().splitlines()[-1].strip() if verified.stdout else verified.stderr}",
+          f"{'verified' if verified.returncode == 0 else verified.stdout + verified.stderr}",
           file=sys.stderr)
     promised = summary["promise"]["status"] == "kept" and verified.returncode == 0
     return 0 if promised and unproved == 0 and difference <= 1e-9 and last <= 1e-6 else 1

@@ -20,7 +20,8 @@ std::string Course::Text() const {
     return Formatted("follow a path of %zu points, %.6g m long, at %.6g m/s", path.size(),
                      PathLine(path).length(), speed);
   }
-  return Formatted("take %zu footsteps, the %s foot first", footsteps.size(),
+  return Formatted("take %zu %s, the %s foot first", footsteps.size(),
+                   footsteps.size() == 1 ? "footstep" : "footsteps",
                    std::string(Name(footsteps.front().side)).c_str());
 }
 

@@ -161,9 +161,14 @@ bool Replanner::Follow(const Situation& s, const WalkPlan& plan, int junction, c
   if (found && !take(around.footsteps)) return true;
   const int proved = ListedAt(refused->at.half_step, junction);
   footsteps.resize(std::min(footsteps.size(), static_cast<size_t>(std::max(0, proved))));
-  // The walk may end between two steps.
-  const bool cuts = !standing.in_air && junction + 1 < plan.sequence.size();
-  if ((cuts || !footsteps.empty()) && !take(footsteps)) {
+  const bool ends = junction + 1 == plan.sequence.size();
+  // A walk that is safe and only ends too soon stays as it is up to its end.
+  const bool stays = SameCourse(s.course, among.world.course) &&
+                     proposal->grant.version == among.world.version &&
+                     proposal->grant.through + 1 == plan.sequence.size();
+  // One that has to change may end between two steps.
+  const bool cuts = !standing.in_air && !ends;
+  if ((ends || !stays) && (cuts || !footsteps.empty()) && !take(footsteps)) {
     proposal->reason += "; as far as is proved: " + why;
     return true;
   }

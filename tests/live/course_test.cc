@@ -274,6 +274,10 @@ TEST(CommandedEpisode, ABlockedWayIsWalkedAsFarAsIsProved) {
       NearestApproach(episode, *played.truth, SmallWorld::Get().place.robot, 0.01, 0.3);
   EXPECT_GE(nearest.distance, 0.005 - 1e-9);
   EXPECT_LT(nearest.distance, 0.2);  // it has come near
+  // While it waits there the walk is not planned anew again and again.
+  EXPECT_LT(std::ranges::count_if(
+                episode.walks, [](const ExecutedWalk& walk) { return walk.t > 12 && walk.t < 16; }),
+            4);
 }
 
 TEST(CommandedEpisode, TakesFootstepsAsTheyAreListed) {
