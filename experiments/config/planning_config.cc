@@ -126,10 +126,17 @@ void DeclarePlanner(Fields& fields, PlannerConfig* c) {
                .listed_by = "halfstep list planners"});
   fields.Text("cost", &c->cost,
               {.meaning = "of a plan; the last is an estimate", .choices = NamesOf(kCosts)});
-  fields.Text("free_by", &c->free_by,
-              {.meaning = "what says that a half-step is free: baked volumes, or its proof",
-               .choices = {"volumes", "certificates"},
-               .otherwise = "certificates on levels where nothing moves, else volumes",
+  fields.Text(
+      "free_by", &c->free_by,
+      {.meaning = "what says that a half-step is free: baked volumes, or its proof",
+       .choices = {"volumes", "certificates"},
+       .otherwise = "certificates on levels where nothing moves or planned in time, else volumes",
+       .left_out_empty = true});
+  fields.Text("moving", &c->moving,
+              {.meaning = "where obstacles that move count: where they are at the time, or "
+                          "everywhere that they ever are",
+               .choices = {"in_time", "everywhere"},
+               .otherwise = "in_time where the planner can",
                .left_out_empty = true});
   fields.Integer("max_nodes", &c->max_nodes,
                  {.meaning = "the search ends after them", .min = 0, .max = 1000000000});

@@ -29,6 +29,7 @@ struct PlannerConfig {
   std::string name = "rrt";       ///< one of known.Names()
   std::string cost = "steps";     ///< a name of CostKind
   std::string free_by = {};       ///< volumes or certificates; "": as the ground wants it
+  std::string moving = {};        ///< in_time or everywhere; "": as the planner can
   StepCost estimate;              ///< its numbers; Cost() sets its kind by `cost`
   int max_nodes = 100000;         ///< ends the search
   int unimproved_nodes = 500;     ///< ends after these without a better plan; 0: at the first plan

@@ -138,7 +138,7 @@ PlanResult Replanner::PlanAfter(const Situation& s, const WalkPlan& plan, int ju
                                 const NearRest* near, std::mt19937_64& random,
                                 Proposal* proposal) const {
   const double begin = SteadySeconds();
-  const auto& [half_step, X_WS] = Nth(plan.sequence.half_steps, junction);
+  const auto& [half_step, X_WS, rest] = Nth(plan.sequence.half_steps, junction);
   std::optional<StepState> in_air;
   if (half_step.kind == HalfStepKind::kUp) in_air = {X_WS, half_step.support};
   const std::int64_t left = config_.experiment.planner.max_nodes - proposal->nodes;

@@ -12,9 +12,11 @@
 #include "experiments/run/plan_inputs.h"
 #include "planner/search/planners.h"
 #include "planner/swept/obstacle_places.h"
+#include "planner/swept/obstacle_times.h"
 #include "planner/swept/swept_volume_query.h"
 #include "smoothing/margins/demandable.h"
 #include "smoothing/margins/not_covered_by.h"
+#include "smoothing/margins/tube_shift.h"
 #include "wpg/check.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/suggestion.h"
@@ -42,6 +44,8 @@ FootstepConfig ToConfig(const Footstep& footstep, const Place& place) {
   config.foot = Name(footstep.side);
   config.X_WF = footstep.X_WF.Planar();
   config.on = SaidInConfig(footstep.X_WF, place);
+  if (footstep.rest > 0.0) config.rest = footstep.rest;
+  if (footstep.rest_on_one_foot > 0.0) config.rest_on_one_foot = footstep.rest_on_one_foot;
   return config;
 }
 
@@ -96,10 +100,34 @@ void ExplainNoPlan(const Place& place, const MarginEvaluator& evaluator, Planned
   plan.sentence = looked + plan.sentence;
 }
 
+// Whether obstacles that move count only where they are at the time. Throws InputError where that
+// was asked for and the planner cannot.
+bool PlansInTime(const PlannerConfig& config, const Scene& scene, const FootstepPlanner& planner) {
+  if (!AnythingMoves(scene) || config.moving == "everywhere") return false;
+  const bool same_cost = config.Cost().kind != CostKind::kSmoothedDuration;
+  if (config.moving == "in_time" && !planner.knows_time()) {
+    throw InputError({"planner.moving: " + Quote(config.name) +
+                      " does not know when obstacles are where (valid: everywhere, or " +
+                      "`planner.name: astar`)"});
+  }
+  if (config.moving == "in_time" && !same_cost) {
+    throw InputError({"planner.cost: " + Quote(config.cost) +
+                      " is an estimate, and plans in time take raw half-steps at their times "
+                      "(valid: steps, raw_duration)"});
+  }
+  return planner.knows_time() && same_cost;
+}
+
 // Whether half-steps are called free by their proofs.
-bool ByCertificates(const ExperimentConfig& config, const Scene& scene) {
+bool ByCertificates(const ExperimentConfig& config, const Scene& scene, bool in_time) {
   if (!config.planner.free_by.empty()) return config.planner.free_by == "certificates";
-  return HasLevels(*scene.ground) && !AnythingMoves(scene);
+  return HasLevels(*scene.ground) && (in_time || !AnythingMoves(scene));
+}
+
+// How far half-steps keep off obstacles [m]: each body as far as any of them may be from its place.
+double ClearanceOf(const ExperimentConfig& config, const RobotModel& robot) {
+  const MarginLimits limits = Demandable(config.smoothing.limits, robot);
+  return limits.demanded_of(MarginFamily::kClearance) + TubeShift(robot, limits.tube).body;
 }
 
 // A search, with what differs between what says that half-steps are free.
@@ -108,6 +136,7 @@ struct Search {
   const HalfStepQuery& query;
   std::function<double(const Pose2&, double)> ground = {};  // as in PlanRequest
   std::function<double()> effort = {};                      // of the query; empty: as is counted
+  const HalfStepTimes* times = nullptr;                     // as in PlanRequest
 };
 
 // Plans with walk->config and writes into it.
@@ -124,6 +153,7 @@ void SearchWith(const Search& search, const Place& place, const PlanningHooks& h
                       .goal = GoalOn(config.goal, ground),
                       .set = search.set,
                       .query = search.query,
+                      .times = search.times,
                       .cost = config.planner.Cost(),
                       .ground = search.ground};
   if (HasLevels(ground) && !search.ground) {
@@ -144,9 +174,13 @@ void SearchWith(const Search& search, const Place& place, const PlanningHooks& h
   request.max_refusals = config.planner.max_refusals;
   request.clock = SteadySeconds;
   request.stop = StopOf(config.planner, hooks);
-  if (search.effort) {
+  const auto effort = [&search] {
+    return (search.effort ? search.effort() : 0.0) +
+           (search.times != nullptr ? search.times->effort() : 0.0);
+  };
+  if (search.effort || search.times != nullptr) {
     request.stop = AnyOf({request.stop, [&](const PlanProgress& progress) {
-                            return progress.effort() + search.effort() >= config.planner.effort
+                            return progress.effort() + effort() >= config.planner.effort
                                        ? StopReason::kBudget
                                        : StopReason::kGoOn;
                           }});
@@ -155,7 +189,7 @@ void SearchWith(const Search& search, const Place& place, const PlanningHooks& h
   const auto planner =
       config.planner.known.Make(config.planner.name, place.scene, config.planner.options);
   walk->plan = planner->Plan(request, random);
-  if (search.effort) walk->proof_effort += search.effort();
+  walk->proof_effort += effort();
   if (walk->plan.status == PlanStatus::kSolved) {
     walk->config = WithFootsteps(config, request.start, walk->plan.footsteps, place);
   } else {
@@ -172,21 +206,29 @@ bool StartsOnNoStep(const Place& place, PlannedWalk* walk) {
   return true;
 }
 
-// With half-steps of one form that are called free by their proofs.
-void PlanByCertificates(const Place& place, const PlanningHooks& hooks, PlannedWalk* walk) {
+// With half-steps of one form that are called free by their proofs. In time `resting` is the place
+// without what moves; else it is the place.
+void PlanByCertificates(const Place& place, const Place& resting, const PlanningHooks& hooks,
+                        PlannedWalk* walk) {
   const double begin = SteadySeconds();
   const StepSet set = StepsByGround(place.robot, walk->config);
   walk->half_steps.size = set.size();
   walk->half_steps.set_wall += SteadySeconds() - begin;
   if (set.size() == 0) ThrowNoHalfStep(place.robot, walk->config);
   const CertificateQuery query(
-      set, MarginEvaluator(place.robot, place.scene, walk->config.smoothing.limits),
+      set, MarginEvaluator(place.robot, resting.scene, walk->config.smoothing.limits),
       walk->config.smoothing.certification);
+  std::optional<ObstacleTimes> times;
+  if (walk->in_time) {
+    times.emplace(place.robot, MotionModelOf(place.robot, set.prototype.shape), set, place.scene,
+                  ClearanceOf(walk->config, place.robot));
+  }
   SearchWith(
       {.set = set,
        .query = query,
        .ground = [&query](const Pose2& X_WF, double from) { return query.HeightAt(X_WF, from); },
-       .effort = [&query] { return query.work().effort(); }},
+       .effort = [&query] { return query.work().effort(); },
+       .times = times ? &*times : nullptr},
       place, hooks, walk);
 }
 
@@ -194,12 +236,13 @@ void PlanByCertificates(const Place& place, const PlanningHooks& hooks, PlannedW
 void PlanByForms(const Place& place, const PlanningHooks& hooks, PlannedWalk* walk) {
   constexpr int kMost = 3;
   if (StartsOnNoStep(place, walk)) return;
+  const Place resting = walk->in_time ? Place{place.robot, RestingPart(place.scene)} : place;
   const ExperimentConfig config = walk->config;
   HalfStepForms found;
   for (int i = 0; i < kMost && !hooks.stop.stop_requested(); ++i) {
     if (i < 2) {  // others are looked for when the first one has no plan
       const double begin = SteadySeconds();
-      found = FormsFor(config, place, i == 0 ? 1 : kMost);
+      found = FormsFor(config, resting, i == 0 ? 1 : kMost);
       walk->half_steps.set_wall += SteadySeconds() - begin;
     }
     if (i == std::ssize(found.forms)) break;
@@ -207,7 +250,7 @@ void PlanByForms(const Place& place, const PlanningHooks& hooks, PlannedWalk* wa
     walk->config = config;
     walk->config.half_step = form;
     if (found.on_levels) walk->config.planner.effort = config.planner.effort / kMost;
-    PlanByCertificates(place, hooks, walk);
+    PlanByCertificates(place, resting, hooks, walk);
     walk->config.planner.effort = config.planner.effort;
     if (walk->plan.status == PlanStatus::kSolved) {
       walk->changed_half_step = Differences(form, config.half_step);
@@ -238,10 +281,21 @@ void PlanByVolumes(const Place& place, const PlanningHooks& hooks, PlannedWalk* 
   if (StartsOnNoStep(place, walk)) return;
   const SweptVolumes& volumes = *walk->half_steps.cached.volumes;
   const MarginLimits limits = Demandable(walk->config.smoothing.limits, place.robot);
-  const SweptVolumeQuery query(
-      volumes, place.robot.sole_outline, place.scene, limits.demanded_of(MarginFamily::kNoStep),
-      std::numeric_limits<double>::infinity(), limits.demanded_of(MarginFamily::kFoothold));
-  SearchWith({.set = volumes.set, .query = query}, place, hooks, walk);
+  const auto query_on = [&](const Scene& scene) {
+    return SweptVolumeQuery(
+        volumes, place.robot.sole_outline, scene, limits.demanded_of(MarginFamily::kNoStep),
+        std::numeric_limits<double>::infinity(), limits.demanded_of(MarginFamily::kFoothold));
+  };
+  if (!walk->in_time) {
+    const SweptVolumeQuery query = query_on(place.scene);
+    return SearchWith({.set = volumes.set, .query = query}, place, hooks, walk);
+  }
+  const SweptVolumeQuery resting = query_on(RestingPart(place.scene)),
+                         always = query_on(MovingPart(place.scene));
+  const ObstacleTimes times(place.robot, MotionModelOf(place.robot, volumes.set.prototype.shape),
+                            volumes.set, place.scene, ClearanceOf(walk->config, place.robot),
+                            &always);
+  SearchWith({.set = volumes.set, .query = resting, .times = &times}, place, hooks, walk);
 }
 
 }  // namespace
@@ -259,16 +313,18 @@ PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
                       "astar, astar/classic)"});
   }
   GoalOn(config.goal, ground);  // complains before anything is computed
-  const bool by_certificates = ByCertificates(config, place.scene);
-  if (by_certificates && AnythingMoves(place.scene)) {
+  const bool in_time = PlansInTime(config.planner, place.scene, *planner);
+  const bool by_certificates = ByCertificates(config, place.scene, in_time);
+  if (by_certificates && !in_time && AnythingMoves(place.scene)) {
     throw InputError(
         {"planner.free_by: a proof of a half-step by itself does not say when it is "
-         "executed, and obstacles of the scene move (valid: volumes)"});
+         "executed, and obstacles of the scene move (valid: volumes, or planning in time)"});
   }
   PlannedWalk walk{.config = config,
                    .plan = {},
                    .half_steps = {},
                    .on_levels = HasLevels(ground),
+                   .in_time = in_time,
                    .not_covered = NotCoveredBy(place.robot, place.scene, config.smoothing.limits)};
   if (by_certificates) {
     PlanByForms(place, hooks, &walk);

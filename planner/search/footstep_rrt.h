@@ -24,6 +24,7 @@ class FootstepRrt : public FootstepPlanner {
   /// They hold for every call.
   explicit FootstepRrt(const RrtOptions& options) : options_(options) {}
   PlanResult Plan(const PlanRequest& request, std::mt19937_64& random) const override;
+  bool knows_time() const override { return true; }
 
  private:
   RrtOptions options_;

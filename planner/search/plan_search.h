@@ -6,6 +6,7 @@
 
 #include "planner/search/footstep_planner.h"
 #include "planner/search/step_graph.h"
+#include "planner/search/timed_edges.h"
 
 namespace halfstep {
 
@@ -14,6 +15,8 @@ struct StepPlan {
   StepState start;      ///< where it begins, a foot in the air
   std::vector<int> ks;  ///< places in StepGraph::elements()
   double cost = 0.0;    ///< of the chain, by PlanRequest::cost
+  /// In time: how each of `ks` is taken. Else empty.
+  std::vector<TimedEdge> timed = {};
 };
 
 /// Counts nodes, asks the termination and keeps the plans found, on behalf of one call of Plan.

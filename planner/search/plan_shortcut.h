@@ -9,9 +9,10 @@ namespace halfstep {
 
 /// Plans a stretch between two random states of `plan` anew, or from one of `starts` on, and offers
 /// the whole to the monitor if it is cheaper. Returns whether it was. Counts at least one node.
-/// Precondition: the plan has a footstep.
+/// Precondition: the plan has a footstep. In time with `edges`; null: not in time.
 bool TryShortcut(const StepPlan& plan, const std::vector<StepState>& starts, const PoseCells& cells,
-                 StepGraph* graph, PlanMonitor* monitor, std::mt19937_64& random);
+                 StepGraph* graph, PlanMonitor* monitor, TimedEdges* edges,
+                 std::mt19937_64& random);
 
 /// Uniform in [lower, upper), from 53 bits of one number, so that it is the same on every platform.
 double Uniform(double lower, double upper, std::mt19937_64& random);

@@ -292,7 +292,7 @@ TEST(CommandedEpisode, TakesFootstepsAsTheyAreListed) {
   const HalfStepSequence& sequence = episode.walks.back().plan.sequence;
   ASSERT_EQ(sequence.num_steps(), 3);
   for (int step = 0; step < 3; ++step) {
-    const auto& [down, X_WS] = Nth(sequence.half_steps, 2 * step + 1);
+    const auto& [down, X_WS, rest] = Nth(sequence.half_steps, 2 * step + 1);
     const Foothold X_WF = X_WS * down.X_SF;
     EXPECT_EQ(down.swing(), Nth(listed, step).side);
     EXPECT_NEAR(X_WF.x, Nth(listed, step).X_WF.x, 1e-12);
