@@ -79,9 +79,13 @@ def live(halfstep, folder, name, script, longest):
     return out, json.loads(run.stdout)
 
 
-def rows_of(path):
+def each_row(path):
     with open(path, newline="") as file:
-        return list(csv.DictReader(file))
+        yield from csv.DictReader(file)
+
+
+def rows_of(path):
+    return list(each_row(path))
 
 
 def largest_difference(out, plans, begun):
@@ -109,7 +113,7 @@ def largest_difference(out, plans, begun):
 def lipm_residuals(out, end):
     """Of the first and of the last minute [m]."""
     worst = {}
-    for row in rows_of(out / "trajectory.csv"):
+    for row in each_row(out / "trajectory.csv"):
         t = float(row["t_s"])
         for minute in {0 if t <= 60 else None, 1 if t >= end - 60 else None} - {None}:
             for axis in "xy":

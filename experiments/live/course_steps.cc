@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "wpg/elementary.h"
+#include "wpg/files/text.h"
 #include "wpg/nth.h"
 
 namespace halfstep {
@@ -54,11 +55,12 @@ class Steps {
   CourseSteps Take(std::optional<Side> in_air, int count) {
     CourseSteps steps;
     for (int i = 0; i < count; ++i) {
-      const std::optional<Footstep> next = i == 0 && in_air ? Of(*in_air, /*must=*/true) : NextOf();
+      const std::optional<Next> next = i == 0 && in_air ? Of(*in_air, /*must=*/true) : NextOf();
       if (!next) break;
-      steps.footsteps.push_back(*next);
-      Nth(feet_, Index(next->side)) = next->X_WF;
-      landed_ = next->side;
+      steps.footsteps.push_back(next->footstep);
+      steps.part = std::min(steps.part, next->part);
+      landed_ = next->footstep.side;
+      Nth(feet_, Index(landed_)) = next->footstep.X_WF;
     }
     const bool stands = !in_air || !steps.footsteps.empty();
     steps.complete = stands && IsOver() && !NextOf();
@@ -66,6 +68,11 @@ class Steps {
   }
 
  private:
+  struct Next {
+    Footstep footstep;
+    double part = 1.0;  // of what the course asks for
+  };
+
   // The middle beside the foot that supports while `swing` moves.
   Pose2 Middle(Side swing) const {
     const Side support = Opposite(swing);
@@ -111,8 +118,8 @@ class Steps {
   }
 
   // The next footstep of feet that stand.
-  std::optional<Footstep> NextOf() const {
-    const std::optional<Footstep> next = Of(Opposite(landed_), /*must=*/false);
+  std::optional<Next> NextOf() const {
+    const std::optional<Next> next = Of(Opposite(landed_), /*must=*/false);
     // Where one foot has nothing to do, the other one may.
     return next ? next : Of(landed_, /*must=*/false);
   }
@@ -130,13 +137,14 @@ class Steps {
   }
 
   // None: the ground does not bear it, or the foot stands there already.
-  std::optional<Footstep> Of(Side swing, bool must) const {
+  std::optional<Next> Of(Side swing, bool must) const {
     const Side support = Opposite(swing);
     const Foothold& X_WS = Nth(feet_, Index(support));
     const Eigen::Vector3d wanted = IsOver() ? Eigen::Vector3d::Zero() : Wanted(swing);
     const Pose2 from = Beside(support, gait_.width).Inverse(), to = Beside(swing, gait_.width);
     const auto placed = [&](double part) { return from * Exp(part * wanted) * to; };
-    const Pose2 X_SF = placed(LargestPart(support, placed));
+    const double part = LargestPart(support, placed);
+    const Pose2 X_SF = placed(part);
     const Pose2 is = (X_WS.Inverse() * Nth(feet_, Index(swing))).Planar();
     const bool stays = std::abs(X_SF.x - is.x) < kStill && std::abs(X_SF.y - is.y) < kStill &&
                        std::abs(X_SF.yaw - is.yaw) < kStill;
@@ -144,10 +152,11 @@ class Steps {
     const Pose2 X_WF = X_WS.Planar() * X_SF;
     const double height = gait_.ground ? gait_.ground(X_WF, X_WS.height) : X_WS.height;
     if (std::isnan(height)) return std::nullopt;
-    return Footstep{.side = swing,
-                    .X_WF = Foothold(X_WF, height),
-                    .via_height = gait_.set.prototype.via_height,
-                    .duration = gait_.set.prototype.duration};
+    return Next{.footstep = {.side = swing,
+                             .X_WF = Foothold(X_WF, height),
+                             .via_height = gait_.set.prototype.via_height,
+                             .duration = gait_.set.prototype.duration},
+                .part = part};
   }
 
   const Course& course_;
@@ -162,6 +171,12 @@ class Steps {
 CourseSteps FootstepsAlong(const Course& course, const Gait& gait, const Standing& standing,
                            int count) {
   return Steps(course, gait, standing).Take(standing.in_air, count);
+}
+
+std::string ShortfallText(const CourseSteps& steps) {
+  if (steps.part >= 1.0) return "";
+  return Formatted("; footsteps go %.0f %% as far as that, which is what the half-steps reach",
+                   100.0 * steps.part);
 }
 
 GoalRegion RegionAlong(const Course& course, const std::array<Foothold, 2>& feet, double ahead) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "experiments/live/course.h"
@@ -35,7 +36,12 @@ struct CourseSteps {
   std::vector<Footstep> footsteps;  ///< fewer than asked for where the ground does not bear one
   /// Nothing of the course is left when they are taken. Never of a velocity other than 0.
   bool complete = false;
+  /// The least part of what the course asks of a footstep that the set has elements for; 1: all.
+  double part = 1.0;
 };
+
+/// That footsteps fall short of their course, in words that follow others; "" where they do not.
+std::string ShortfallText(const CourseSteps& steps);
 
 /// Up to `count` footsteps along a course of velocity or path. With each of them the robot's middle
 /// moves from beside the foot that supports by what the course asks for in `pace`, or by as much of

@@ -27,6 +27,8 @@ class EpisodeLoop {
   Episode Run(const std::array<Foothold, 2>& start);
 
  private:
+  static constexpr double kRetry = 0.2;  // after a search that found no way [s]
+
   // Measures until there is a walk, and until it begins, at the time that is t = 0 from then on.
   Proposal Wait(const std::array<Foothold, 2>& start);
   // Takes in the frames that have arrived by now.

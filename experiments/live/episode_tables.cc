@@ -19,8 +19,7 @@ CsvFile EventsCsv(const Episode& episode, size_t from) {
   CsvWriter csv({{"t_s", kNumber, "s", "when"},
                  {"event", kString, "",
                   "measured, lost, contradicted, commanded, begins, near, early, late, pushed, "
-                  "handed_over, refused, "
-                  "unsafe, stopped"},
+                  "handed_over, refused, unsafe, stopped"},
                  {"world", kInteger, "", "version that was known then"},
                  {"walk", kInteger, "", "in execution then, from 0"},
                  {"half_step", kInteger, "", "that it is about, from 1; 0: none"},
@@ -83,7 +82,7 @@ CsvFile ObstaclesCsv(const Episode& episode, size_t from) {
 CsvFile PlansCsv(const Episode& episode, size_t from) {
   CsvWriter csv({{"walk", kInteger, "", "from 0"},
                  {"handed_over_s", kNumber, "s", "when it took the place of the one before"},
-                 {"kind", kString, "", "changed, shortened, resumed or smoothed"},
+                 {"kind", kString, "", "changed, shortened, resumed, smoothed or commanded"},
                  {"asked_s", kNumber, "s", "when work on it began"},
                  {"measured_s", kNumber, "s", "when the world that it was made for was measured"},
                  {"first_changed", kInteger, "", "half-step, from 1"},

@@ -14,7 +14,6 @@
 namespace halfstep {
 namespace {
 
-constexpr int kProvedAtOnce = 4;  // half-steps behind a junction
 constexpr int kMostNear = 4;      // half-steps one after the other that keep less than demanded
 
 // Whether the robot waits before half-steps that are planned.
@@ -131,42 +130,6 @@ std::optional<Margin> Replanner::Prove(const Situation& s, const SuperposedWalk&
   }
   grant.through = safety.through;
   return safety.refused_by ? safety.refused_by : robot.refused_by;
-}
-
-PlanResult Replanner::PlanAfter(const Situation& s, const WalkPlan& plan, int junction,
-                                const PreparedWorld& among, const GoalRegion& goal,
-                                const NearRest* near, std::mt19937_64& random,
-                                Proposal* proposal) const {
-  const double begin = SteadySeconds();
-  const auto& [half_step, X_WS, rest] = Nth(plan.sequence.half_steps, junction);
-  std::optional<StepState> in_air;
-  if (half_step.kind == HalfStepKind::kUp) in_air = {X_WS, half_step.support};
-  const std::int64_t left = config_.experiment.planner.max_nodes - proposal->nodes;
-  const std::array<Foothold, 2> stance = StanceAfter(plan.sequence, junction);
-  // Other footsteps after another junction do not begin where the robot rests.
-  const NearRest* from_rest = near && near->half_step() == junction + 1 ? near : nullptr;
-  const bool rests =
-      s.stopped || (junction + 1 == plan.sequence.size() && plan.Walk().duration() <= s.hand_over);
-  PlanResult result = Plan(stance, in_air, among, goal, from_rest, rests, left, random);
-  proposal->nodes += result.nodes;
-  proposal->effort += result.effort();
-  proposal->planned = result;
-  proposal->plan_s += SteadySeconds() - begin;
-  return result;
-}
-
-bool Replanner::Change(const Situation& s, const WalkPlan& plan, int junction,
-                       const PreparedWorld& among, const NearRest* near, std::mt19937_64& random,
-                       Proposal* proposal) const {
-  const PlanResult result =
-      PlanAfter(s, plan, junction, among, among.world.goal, near, random, proposal);
-  if (result.status != PlanStatus::kSolved) return false;
-  if (result.footsteps.empty() && junction % 2 == 0) return false;
-  if (Splice(s, plan, junction, result.footsteps, kProvedAtOnce, among, near, proposal)) {
-    return false;
-  }
-  proposal->course = nullptr;
-  return true;
 }
 
 std::optional<Margin> Replanner::Splice(const Situation& s, const WalkPlan& plan, int junction,

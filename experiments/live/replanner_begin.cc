@@ -59,9 +59,9 @@ Proposal Replanner::BeginAlong(const std::array<Foothold, 2>& start, const Prepa
   Proposal proposal{.kind = ProposalKind::kUnsafe, .course = among.world.course};
   const Course& course = *among.world.course;
   const bool listed = course.kind == CourseKind::kFootsteps;
-  std::vector<Footstep> footsteps =
-      listed ? Listed(course, start)
-             : StepsAhead(course, GaitOf({}, {}), {.feet = start}, 0.0).footsteps;
+  CourseSteps steps;
+  if (!listed) steps = StepsAhead(course, GaitOf({}, {}), {.feet = start}, 0.0);
+  std::vector<Footstep> footsteps = listed ? Listed(course, start) : steps.footsteps;
   if (listed && footsteps.size() < course.footsteps.size()) footsteps.clear();
   if (footsteps.empty()) {
     proposal.reason = "nothing is to be walked: " + course.Text();
@@ -69,7 +69,9 @@ Proposal Replanner::BeginAlong(const std::array<Foothold, 2>& start, const Prepa
   }
   const auto refused = Start(start, footsteps, among, near, junctions, &proposal);
   if (!refused) {
-    if (listed && proposal.kind == ProposalKind::kChanged) proposal.kind = ProposalKind::kCommanded;
+    if (proposal.kind != ProposalKind::kChanged) return proposal;
+    if (listed) proposal.kind = ProposalKind::kCommanded;
+    proposal.reason = "as commanded" + ShortfallText(steps);
     return proposal;
   }
   proposal.reason = among.safety.evaluator().Describe(*refused);

@@ -146,7 +146,10 @@ bool Replanner::Follow(const Situation& s, const WalkPlan& plan, int junction, c
     return true;  // the walk ends as it shall
   }
   const std::optional<Margin> refused = take(footsteps);
-  if (!refused) return true;
+  if (!refused) {
+    proposal->reason += ShortfallText(steps);
+    return true;
+  }
   const std::string why = "the way is blocked: " + among.safety.evaluator().Describe(*refused);
   if (course.Rests()) {
     proposal->planned = Refused(why);

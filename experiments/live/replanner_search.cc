@@ -1,4 +1,4 @@
-// How the replanner searches for footsteps.
+// How the replanner searches for footsteps, and takes what it finds.
 
 #include "experiments/live/near_rest.h"
 #include "experiments/live/near_start_query.h"
@@ -6,6 +6,7 @@
 #include "experiments/live/replanner.h"
 #include "experiments/run/planning.h"
 #include "planner/search/planners.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 
@@ -65,6 +66,43 @@ PlanResult Replanner::Search(const std::array<Foothold, 2>& stance,
                                      : WhenNotImprovedFor(options.unimproved_nodes)});
   return options.known.Make(options.name, among.world.scene, options.options)
       ->Plan(request, random);
+}
+
+PlanResult Replanner::PlanAfter(const Situation& s, const WalkPlan& plan, int junction,
+                                const PreparedWorld& among, const GoalRegion& goal,
+                                const NearRest* near, std::mt19937_64& random,
+                                Proposal* proposal) const {
+  const double begin = SteadySeconds();
+  const auto& [half_step, X_WS, rest] = Nth(plan.sequence.half_steps, junction);
+  std::optional<StepState> in_air;
+  if (half_step.kind == HalfStepKind::kUp) in_air = {X_WS, half_step.support};
+  const std::int64_t left = config_.experiment.planner.max_nodes - proposal->nodes;
+  const std::array<Foothold, 2> stance = StanceAfter(plan.sequence, junction);
+  // Other footsteps after another junction do not begin where the robot rests.
+  const NearRest* from_rest = near && near->half_step() == junction + 1 ? near : nullptr;
+  const bool rests =
+      s.stopped || (junction + 1 == plan.sequence.size() && plan.Walk().duration() <= s.hand_over);
+  PlanResult result = Plan(stance, in_air, among, goal, from_rest, rests, left, random);
+  proposal->nodes += result.nodes;
+  proposal->effort += result.effort();
+  proposal->planned = result;
+  proposal->plan_s += SteadySeconds() - begin;
+  return result;
+}
+
+bool Replanner::Change(const Situation& s, const WalkPlan& plan, int junction,
+                       const PreparedWorld& among, const NearRest* near, std::mt19937_64& random,
+                       Proposal* proposal) const {
+  const PlanResult result =
+      PlanAfter(s, plan, junction, among, among.world.goal, near, random, proposal);
+  if (result.status != PlanStatus::kSolved) return false;
+  if (result.footsteps.empty() && junction % 2 == 0) return false;
+  constexpr int kProvedAtOnce = 4;  // half-steps behind the junction
+  if (Splice(s, plan, junction, result.footsteps, kProvedAtOnce, among, near, proposal)) {
+    return false;
+  }
+  proposal->course = nullptr;
+  return true;
 }
 
 }  // namespace halfstep

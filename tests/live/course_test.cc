@@ -67,9 +67,10 @@ Pose2 MiddleAfter(std::array<Foothold, 2> feet, const std::vector<Footstep>& foo
 // A foot's height, duration and via point are those of the set.
 TEST(CourseSteps, AVelocityIsWalkedAtItsSpeed) {
   const Stepping stepping;
-  const std::vector<Footstep> steps =
-      stepping.Along(Velocity(0.04, 0, 0), {.feet = stepping.SideBySide()}).footsteps;
+  const CourseSteps all = stepping.Along(Velocity(0.04, 0, 0), {.feet = stepping.SideBySide()});
+  const std::vector<Footstep>& steps = all.footsteps;
   ASSERT_EQ(steps.size(), 6U);
+  EXPECT_EQ(ShortfallText(all), "");
   for (size_t i = 0; i < steps.size(); ++i) {
     EXPECT_EQ(steps[i].side, i % 2 == 0 ? Side::kLeft : Side::kRight);
     EXPECT_NEAR(steps[i].X_WF.x, 0.04 * kPace * static_cast<double>(i + 1), 1e-12);
@@ -112,9 +113,13 @@ TEST(CourseSteps, AreMirrored) {
 // set, and speed and yaw rate are lowered together.
 TEST(CourseSteps, TooFastIsAsFastAsTheSetHasElements) {
   const Stepping stepping;
-  const std::vector<Footstep> steps =
-      stepping.Along(Velocity(1.0, 0, 0.2), {.feet = stepping.SideBySide()}).footsteps;
+  const CourseSteps all = stepping.Along(Velocity(1.0, 0, 0.2), {.feet = stepping.SideBySide()});
+  const std::vector<Footstep>& steps = all.footsteps;
   ASSERT_EQ(steps.size(), 6U);
+  // Of 2 m a footstep about 0.2; that is said.
+  EXPECT_NEAR(all.part, 0.1, 0.03);
+  EXPECT_THAT(ShortfallText(all),
+              HasSubstr(" % as far as that, which is what the half-steps reach"));
   std::array<Foothold, 2> feet = stepping.SideBySide();
   for (const Footstep& one : steps) {
     const Foothold X_SF = Nth(feet, Index(Opposite(one.side))).Inverse() * one.X_WF;
