@@ -78,6 +78,22 @@ TEST(VerifyCommands, AcceptsWhatLiveWritesAndRefusesWhatIsForged) {
         });
       },
       "1 rows `commanded` of world 3 instead of 0");
+  expect(
+      [&] {
+        TamperedRun::EditCsv(episode.folder() / "events.csv", [](Table& table) {
+          table.push_back({"0.0", "commanded", "999", "0", "0", "walk"});
+        });
+      },
+      "a row `commanded` of world 999, which is not there");
+  // The script says it at another time; frames are taken every 0.2 s, one of them at 2 s.
+  expect(
+      [&] { TamperedRun::Replace(episode.folder() / "config.yaml", "at_s: 2\n", "at_s: 1.7\n"); },
+      "0 rows `commanded` of world 9 instead of 1");
+  // But times are rounded: one that is this instant may be just after it.
+  TamperedRun::Replace(episode.folder() / "config.yaml", "at_s: 2\n", "at_s: 2.000000000001\n");
+  EXPECT_EQ(episode.Verify().status, 0);
+  WriteText(episode.folder() / "config.yaml", config);
+  WriteText(episode.folder() / "manifest.json", manifest);
   // Footsteps that nobody commanded.
   expect([&] { TamperedRun::Replace(episode.folder() / "config.yaml", "x_m: 0.2", "x_m: 0.21"); },
          "walks/000/footsteps.csv: does not end with footsteps that had been commanded by 0 s");
