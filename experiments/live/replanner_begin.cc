@@ -71,7 +71,7 @@ Proposal Replanner::BeginAlong(const std::array<Foothold, 2>& start, const Prepa
   if (!refused) {
     if (proposal.kind != ProposalKind::kChanged) return proposal;
     if (listed) proposal.kind = ProposalKind::kCommanded;
-    proposal.reason = "as commanded" + ShortfallText(steps);
+    proposal.reason = course.Text() + ShortfallText(steps);
     return proposal;
   }
   proposal.reason = among.safety.evaluator().Describe(*refused);

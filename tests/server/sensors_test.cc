@@ -141,8 +141,7 @@ TEST(EditedSensor, TheScriptSaysWhatPeopleDid) {
 // has it. Of those that wait only the last is one.
 TEST(EditedSensor, CommandsAreInTheScript) {
   Edited edited;
-  edited.At(0.4);
-  EXPECT_EQ(edited.At(0.6).course, nullptr);
+  EXPECT_EQ(edited.At(0.4).course, nullptr);
   const auto command = [](double forward) {
     Command one;
     one.event.what = "walk";

@@ -70,7 +70,7 @@ TEST(VerifyCommands, AcceptsWhatLiveWritesAndRefusesWhatIsForged) {
           std::erase_if(table, [](const auto& row) { return row[1] == "commanded"; });
         });
       },
-      "0 rows `commanded` of world 0 instead of 1");
+      "0 rows `commanded` of world 1 instead of 1");
   expect(
       [&] {
         TamperedRun::EditCsv(episode.folder() / "events.csv", [](Table& table) {
@@ -95,7 +95,7 @@ TEST(VerifyCommands, AcceptsWhatLiveWritesAndRefusesWhatIsForged) {
   WriteText(episode.folder() / "config.yaml", config);
   WriteText(episode.folder() / "manifest.json", manifest);
   // Footsteps that nobody commanded.
-  expect([&] { TamperedRun::Replace(episode.folder() / "config.yaml", "x_m: 0.2", "x_m: 0.21"); },
+  expect([&] { TamperedRun::Replace(episode.folder() / "config.yaml", " x_m: 0.2", " x_m: 0.21"); },
          "walks/000/footsteps.csv: does not end with footsteps that had been commanded by 0 s");
   // A robot that was told to rest has not arrived.
   expect(
