@@ -7,6 +7,7 @@
 
 #include "wpg/elementary.h"
 #include "wpg/files/text.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 
@@ -23,6 +24,11 @@ std::string Course::Text() const {
   return Formatted("take %zu %s, the %s foot first", footsteps.size(),
                    footsteps.size() == 1 ? "footstep" : "footsteps",
                    std::string(Name(footsteps.front().side)).c_str());
+}
+
+std::string Course::NameOf(int footstep) const {
+  const Side side = Nth(footsteps, footstep).side;
+  return Formatted("footstep %d (%s): ", footstep + 1, std::string(Name(side)).c_str());
 }
 
 bool SameCourse(const std::shared_ptr<const Course>& a, const std::shared_ptr<const Course>& b) {

@@ -39,6 +39,8 @@ struct Course {
   bool Rests() const { return kind == CourseKind::kVelocity && velocity.isZero(0.0); }
   /// "walk at 0.1 m/s ahead, 0 m/s to the left, 0.2 rad/s".
   std::string Text() const;
+  /// "footstep 2 (right): ", of a list, by index from 0.
+  std::string NameOf(int footstep) const;
 };
 
 /// Whether a walk that was planned for one serves the other; null is the goal.

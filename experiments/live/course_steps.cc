@@ -175,7 +175,7 @@ CourseSteps FootstepsAlong(const Course& course, const Gait& gait, const Standin
 
 std::string ShortfallText(const CourseSteps& steps) {
   if (steps.part >= 1.0) return "";
-  return Formatted("; footsteps go %.0f %% as far as that, which is what the half-steps reach",
+  return Formatted("; footsteps go %.0f %% as far, as much as half-steps reach",
                    100.0 * steps.part);
 }
 

@@ -75,6 +75,11 @@ Proposal Replanner::BeginAlong(const std::array<Foothold, 2>& start, const Prepa
     return proposal;
   }
   proposal.reason = among.safety.evaluator().Describe(*refused);
+  if (listed) {
+    const auto last = static_cast<int>(footsteps.size()) - 1;
+    const int which = std::clamp(refused->at.half_step / 2, 0, last);
+    proposal.reason = course.NameOf(which) + proposal.reason;
+  }
   if (listed || course.Rests()) return proposal;
   proposal.planned = Plan(start, {}, among, RegionAlong(course, start, Ahead(config_)), near,
                           /*rests=*/true, config_.experiment.planner.max_nodes, random);

@@ -9,7 +9,6 @@
 #include "experiments/live/prepared_world.h"
 #include "experiments/live/replanner.h"
 #include "experiments/run/planning.h"
-#include "wpg/files/text.h"
 #include "wpg/nth.h"
 
 namespace halfstep {
@@ -188,13 +187,10 @@ bool Replanner::FollowList(const Situation& s, const WalkPlan& plan, int junctio
     proposal->planned = Refused("the other foot is in the air");
     return false;
   }
-  const auto named = [&](size_t i) {
-    return Formatted("footstep %zu (%s): ", i + 1,
-                     std::string(Name(course.footsteps[i].side)).c_str());
-  };
   const std::vector<Footstep> footsteps = Listed(course, standing.feet);
   if (footsteps.size() < course.footsteps.size()) {
-    proposal->planned = Refused(named(footsteps.size()) + "the ground does not bear it");
+    const auto borne = static_cast<int>(footsteps.size());
+    proposal->planned = Refused(course.NameOf(borne) + "the ground does not bear it");
     return false;
   }
   const int all = 2 * static_cast<int>(footsteps.size()) + 1;
@@ -206,8 +202,7 @@ bool Replanner::FollowList(const Situation& s, const WalkPlan& plan, int junctio
   }
   const auto last = static_cast<int>(footsteps.size()) - 1;
   const int listed = std::clamp(ListedAt(refused->at.half_step, junction), 0, last);
-  proposal->planned =
-      Refused(named(static_cast<size_t>(listed)) + among.safety.evaluator().Describe(*refused));
+  proposal->planned = Refused(course.NameOf(listed) + among.safety.evaluator().Describe(*refused));
   return false;
 }
 

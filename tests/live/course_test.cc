@@ -118,8 +118,7 @@ TEST(CourseSteps, TooFastIsAsFastAsTheSetHasElements) {
   ASSERT_EQ(steps.size(), 6U);
   // Of 2 m a footstep about 0.2; that is said.
   EXPECT_NEAR(all.part, 0.1, 0.03);
-  EXPECT_THAT(ShortfallText(all),
-              HasSubstr(" % as far as that, which is what the half-steps reach"));
+  EXPECT_THAT(ShortfallText(all), HasSubstr(" % as far, as much as half-steps reach"));
   std::array<Foothold, 2> feet = stepping.SideBySide();
   for (const Footstep& one : steps) {
     const Foothold X_SF = Nth(feet, Index(Opposite(one.side))).Inverse() * one.X_WF;
