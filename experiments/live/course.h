@@ -58,6 +58,7 @@ struct PathPlace {
 /// A polyline, by the length along it. Borrows the points, which are at least two.
 class PathLine {
  public:
+  /// Precondition: points are apart from the ones before them.
   explicit PathLine(const std::vector<Eigen::Vector2d>& points);
 
   double length() const { return ends_.back(); }  ///< [m]
