@@ -11,6 +11,7 @@
 #include "experiments/replay/mujoco_model.h"
 #include "experiments/replay/planned_row.h"
 #include "experiments/replay/planned_states.h"
+#include "experiments/replay/seeded_replay.h"
 #include "smoothing/walk/superposed_walk.h"
 #include "tests/experiments/child_process.h"
 #include "wpg/geometry/rotation.h"
@@ -110,8 +111,10 @@ TEST_F(DcmErrorTest, APushIsToldOnceAndABushThatGivesWayIsNone) {
     }
     return all;
   };
-  const ControlledRobot robot{.model = robot_, .servos = {}, .ankle = bush};
-  PushWatch known(robot), rigid({.model = robot_, .servos = {}});
+  replay::ReplaySetup setup;  // as episodes in physics know it
+  setup.robot = whole_;
+  setup.model.ankle = bush;
+  PushWatch known(setup.Controlled()), rigid({.model = robot_, .servos = {}});
   EXPECT_TRUE(told(&known, leaning).empty());
   EXPECT_FALSE(known.pushed());
 
