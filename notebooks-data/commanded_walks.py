@@ -168,7 +168,7 @@ def middle_of(row):
 
 def speeds(halfstep, folder):
     writer = csv.writer(sys.stdout, lineterminator="\n")
-    writer.writerow(["vx_m_s", "vy_m_s", "yaw_rad_s", "reached_m_s", "reached_yaw_rad_s"])
+    writer.writerow(["vx_m_s", "vy_m_s", "yaw_rad_s", "reached_speed", "reached_turn"])
     commands = [(v, 0, 0) for v in (0.05, 0.1, 0.2)] + [(0, 0.05, 0)]
     commands += [(0, 0, w) for w in (0.05, 0.1, 0.2)] + [(0.1, 0, 0.1)]
     for command in commands:
