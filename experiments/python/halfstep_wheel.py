@@ -77,12 +77,23 @@ def write(wheel, name, content, mode, record):
     record.append(f"{name},sha256={digest},{len(content)}")
 
 
+def about():
+    """Files of the folder `.dist-info`, but the record."""
+    return {"METADATA": metadata(),
+            "WHEEL": f"Wheel-Version: 1.0\nGenerator: halfstep\nRoot-Is-Purelib: false\nTag: {tag()}\n"}
+
+
+def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
+    folder = pathlib.Path(metadata_directory) / f"halfstep-{version()}.dist-info"
+    folder.mkdir()
+    for name, text in about().items():
+        (folder / name).write_text(text, encoding="utf-8")
+    return folder.name
+
+
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     settings = config_settings or {}
     name = f"halfstep-{version()}"
-    about = {"METADATA": metadata(),
-             "WHEEL": f"Wheel-Version: 1.0\nGenerator: halfstep\nRoot-Is-Purelib: false\n"
-                      f"Tag: {tag()}\n"}
     file = f"{name}-{tag()}.whl"
     with tempfile.TemporaryDirectory() as folder:
         stage = pathlib.Path(folder)
@@ -94,7 +105,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
                 goes = place(path.relative_to(stage), f"{name}.data")
                 if goes and path.is_file():
                     write(wheel, goes, path.read_bytes(), path.stat().st_mode & 0o777, record)
-            for key, text in about.items():
+            for key, text in about().items():
                 write(wheel, f"{name}.dist-info/{key}", text.encode(), 0o644, record)
             record.append(f"{name}.dist-info/RECORD,,")
             wheel.writestr(f"{name}.dist-info/RECORD", "\n".join(record) + "\n")
