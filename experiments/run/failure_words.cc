@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "experiments/run/stepping_over.h"
 #include "planner/swept/swept_volume_query.h"
@@ -43,6 +44,31 @@ bool IsNear(const Obstacle& obstacle, const std::vector<Refused>& refused, doubl
   });
 }
 
+// An obstacle, and how many half-steps it refuses.
+struct Met {
+  const Obstacle* obstacle = nullptr;
+  int count = 0;
+};
+
+// The one that refuses most of them, each alone in the scene, of those that `counts` names: at most
+// 200 are looked at.
+Met MostMet(const std::vector<Refused>& refused, const SweptVolumes& volumes, const Place& place,
+            const std::function<bool(const Obstacle&)>& counts) {
+  constexpr int kObstacles = 200;
+  Scene alone = place.scene.Emptied();
+  Met most;
+  int looked_at = 0;
+  for (const Obstacle& obstacle : place.scene.obstacles) {
+    if (looked_at == kObstacles) break;
+    if (!counts(obstacle)) continue;
+    ++looked_at;
+    alone.obstacles = {obstacle};
+    const int met = CountMet(refused, {volumes, place.robot.sole_outline, alone});
+    if (met > most.count) most = {&obstacle, met};
+  }
+  return most;
+}
+
 std::string Share(int of, size_t all) {
   return Formatted("%d of the %zu half-steps refused nearest to the goal", of, all);
 }
@@ -71,33 +97,22 @@ std::string NearestWords(const WatchedQuery& watched, const PlanRequest& request
 
 std::string BlockingWords(const WatchedQuery& watched, const SweptVolumes& volumes,
                           const Place& place, const MarginLimits& limits) {
-  constexpr int kObstacles = 200;
   const std::vector<Refused> refused = SomeOf(watched.refused().all(), kAsked);
   if (refused.empty()) return "";
   const double no_step = limits.demanded_of(MarginFamily::kNoStep);
   const RobotMeasures measures = MeasuresOf(place.robot);
-  const Scene bare = place.scene.Emptied();
-  int most = 0, looked_at = 0;
-  const Obstacle* blocking = nullptr;
-  for (const Obstacle& obstacle : place.scene.obstacles) {
-    if (looked_at == kObstacles) break;
-    if (!IsNear(obstacle, refused, 2.0 * measures.leg_length)) continue;
-    ++looked_at;
-    Scene alone = bare;
-    alone.obstacles = {obstacle};
-    const int met = CountMet(refused, {volumes, place.robot.sole_outline, alone});
-    if (met <= most) continue;
-    most = met;
-    blocking = &obstacle;
-  }
-  Scene areas = bare;
+  const Met most = MostMet(refused, volumes, place, [&](const Obstacle& obstacle) {
+    return IsNear(obstacle, refused, 2.0 * measures.leg_length);
+  });
+  const Obstacle* const blocking = most.obstacle;
+  Scene areas = place.scene.Emptied();
   areas.no_step = place.scene.no_step;
   const int on_area = areas.no_step.empty()
                           ? 0
                           : CountMet(refused, {volumes, place.robot.sole_outline, areas, no_step});
-  if (on_area > most) return Share(on_area, refused.size()) + " land on no-step areas";
+  if (on_area > most.count) return Share(on_area, refused.size()) + " land on no-step areas";
   if (blocking == nullptr) return "";
-  std::string text = Share(most, refused.size()) + " meet " + Quote(blocking->name);
+  std::string text = Share(most.count, refused.size()) + " meet " + Quote(blocking->name);
   const std::string over =
       NoHalfStepOver(*blocking, place.robot, volumes, limits.demanded_of(MarginFamily::kClearance));
   if (!over.empty()) return text + "; " + over;
@@ -117,21 +132,13 @@ std::string BlockingWords(const WatchedQuery& watched, const SweptVolumes& volum
 std::string MovingWords(const WatchedTimes& watched, const SweptVolumes& volumes,
                         const Place& place) {
   const std::vector<Refused> refused = SomeOf(watched.refused().all(), kAsked);
-  Scene alone = place.scene.Emptied();
-  int most = 0;
-  const Obstacle* blocking = nullptr;
-  for (const Obstacle& obstacle : place.scene.obstacles) {
-    if (obstacle.rests()) continue;
-    alone.obstacles = {obstacle};
-    const int met = CountMet(refused, {volumes, place.robot.sole_outline, alone});
-    if (met <= most) continue;
-    most = met;
-    blocking = &obstacle;
-  }
+  const Met most =
+      MostMet(refused, volumes, place, [](const Obstacle& obstacle) { return !obstacle.rests(); });
+  const Obstacle* const blocking = most.obstacle;
   if (blocking == nullptr) return "";
   const std::string text =
       Formatted("of %zu half-steps near the goal that are not always free %d meet the way of ",
-                refused.size(), most) +
+                refused.size(), most.count) +
       Quote(blocking->name);
   const auto& waypoints = blocking->motion.waypoints;
   if (blocking->motion.speed > 0.0 || waypoints.empty()) return text;
