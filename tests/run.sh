@@ -47,7 +47,7 @@ release_only="$release_only|Verify/Checks|Verify/Tampered|Verify/Periods|Verify/
 release_only="$release_only|StoppedScene|StoppedBar|StopBranches.AreChecked|Verify.ToleranceIs|Verify.MethodWithout"
 release_only="$release_only|Horizon.WhatIsRefused|Horizon.ProvesStop|FindWhatOneFinds/barrier"
 release_only="$release_only|OneCharacter|GeneratedRobotPhysics|FindsKnownOptima/nlopt_auglag"
-release_only="$release_only|walks.stand|Examined.EveryValue|ATouchIsToldByEverything"
+release_only="$release_only|walks.stand|EveryValue|ATouchIsToldByEverything"
 
 # What .ci/run has no time for: 20 minutes on two cores, of which half are the build's.
 all_only='^$'
