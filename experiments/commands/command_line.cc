@@ -106,6 +106,16 @@ constexpr CommandEntry kEntries[] = {
     {"list", "What there is.\n\n  example: halfstep list methods", DeclareList},
 };
 
+// Version and commit, and on a line of its own what it was built with.
+std::string VersionText() {
+  std::string text = std::string(kVersion) + " (" + std::string(kCommit) + ")\n";
+  text += std::string(kBuildType) + ", " + std::string(kCompiler);
+  for (const auto& [library, version] : kLibraries) {
+    text += ", " + std::string(library) + " " + std::string(version);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::span<const CommandEntry> CommandEntries() { return kEntries; }
@@ -114,7 +124,7 @@ std::vector<DeclaredCommand> DeclareProgram(CLI::App* app, const Toolbox& tools)
   app->description(
       "Plans and smooths humanoid walks made of half-steps.\n\n"
       "  example: halfstep run bar_8cm");
-  app->set_version_flag("--version", std::string(kVersion) + " (" + std::string(kCommit) + ")");
+  app->set_version_flag("--version", VersionText());
   app->require_subcommand(0, 1);  // none at all is told later, so that a misspelt one is named
   std::vector<DeclaredCommand> commands;
   for (const CommandEntry& entry : CommandEntries()) {
