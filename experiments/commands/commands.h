@@ -37,6 +37,7 @@ struct LiveCommand {
   bool view = false;                  ///< serves a page
   int port = 0;                       ///< of the page; 0: any that is free
   std::optional<std::string> socket;  ///< serves messages there
+  bool wait = false;                  ///< begins when a client has come
   bool in_physics = false;  ///< a simulated robot executes the walk, and is what is measured from
   replay::SimulatedRobot simulated;  ///< that robot; its controllers count
   std::vector<replay::Push> pushes;  ///< of its waist, in times of the walk
