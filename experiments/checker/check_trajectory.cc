@@ -117,26 +117,6 @@ class PairLook {
   Motion& motion_;
 };
 
-ConvexBody BodyOfObstacle(const Obstacle& obstacle) {
-  const auto refuse = [&](const std::string& what) {
-    throw InputError({"obstacle " + obstacle.name + ": " + what});
-  };
-  if (!obstacle.rests()) refuse("moves (valid here: obstacles that rest)");
-  if (const auto* mesh = std::get_if<TriangleMesh>(&obstacle.shape)) {
-    if (mesh->cubes || mesh->hollow) refuse("is a map or hollow (valid here: solids)");
-    return MakeHull(mesh->vertices);
-  }
-  ConvexBody body;
-  std::visit(
-      [&](const auto& shape) {
-        if constexpr (!std::is_same_v<std::decay_t<decltype(shape)>, TriangleMesh>) {
-          body = BodyOf(shape);
-        }
-      },
-      obstacle.shape);
-  return body;
-}
-
 bool Ignored(const TrajectoryDemands& demands, const std::string& a, const std::string& b) {
   return std::ranges::any_of(demands.ignored, [&](const auto& pair) {
     return (pair.first == a && pair.second == b) || (pair.first == b && pair.second == a);
@@ -251,8 +231,36 @@ void CheckIgnored(const JointedRobot& robot, const TrajectoryDemands& demands) {
 
 }  // namespace
 
+ConvexBody BodyOfObstacle(const Obstacle& obstacle) {
+  const auto refuse = [&](const std::string& what) {
+    throw InputError({"obstacle " + obstacle.name + ": " + what});
+  };
+  if (!obstacle.rests()) refuse("moves (valid here: obstacles that rest)");
+  if (const auto* mesh = std::get_if<TriangleMesh>(&obstacle.shape)) {
+    if (mesh->cubes || mesh->hollow) refuse("is a map or hollow (valid here: solids)");
+    return MakeHull(mesh->vertices);
+  }
+  ConvexBody body;
+  std::visit(
+      [&](const auto& shape) {
+        if constexpr (!std::is_same_v<std::decay_t<decltype(shape)>, TriangleMesh>) {
+          body = BodyOf(shape);
+        }
+      },
+      obstacle.shape);
+  return body;
+}
+
 bool TrajectoryCheck::proved() const {
   return !stopped && std::ranges::all_of(findings, &TrajectoryFinding::proved);
+}
+
+void TrajectoryCheck::Sort() {
+  std::ranges::stable_sort(findings, [](const auto& x, const auto& y) {
+    if (x.kind != y.kind) return x.kind < y.kind;
+    if (x.proved != y.proved) return !x.proved;
+    return x.least - x.demanded < y.least - y.demanded;
+  });
 }
 
 TrajectoryCheck CheckTrajectory(const Trajectory& trajectory, const JointedRobot& robot,
@@ -293,11 +301,7 @@ TrajectoryCheck CheckTrajectory(const Trajectory& trajectory, const JointedRobot
         pair.kind, pair.subject, demanded, proof, motion.curves().times(),
         [&look](double t) { return look.About(t); }, &check);
   }
-  std::ranges::stable_sort(check.findings, [](const auto& x, const auto& y) {
-    if (x.kind != y.kind) return x.kind < y.kind;
-    if (x.proved != y.proved) return !x.proved;
-    return x.least - x.demanded < y.least - y.demanded;
-  });
+  check.Sort();
   return check;
 }
 

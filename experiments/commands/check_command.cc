@@ -4,8 +4,10 @@
 #include <memory>
 #include <optional>
 
+#include "experiments/checker/check_report.h"
 #include "experiments/checker/check_trajectory.h"
-#include "experiments/checker/trajectory_report.h"
+#include "experiments/checker/check_walk.h"
+#include "experiments/checker/walk_run.h"
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/command_mistake.h"
 #include "experiments/commands/commands.h"
@@ -82,9 +84,45 @@ std::vector<std::string> NotLookedAt(const checker::Trajectory& trajectory, cons
   return told;
 }
 
+// The walks of a run's methods.
+ExitStatus CheckWalks(const CheckCommand& command) {
+  const std::string& run = command.trajectory;
+  bool proved = true;
+  for (const std::string& method : checker::CertifiedMethods(run, command.method)) {
+    const checker::WalkRun walk = checker::ReadWalkRun(run, method);
+    InterruptGuard interrupt;
+    std::optional<ProgressBar> bar(std::in_place, "check " + method, command.quiet);
+    checker::TrajectoryCheck check = checker::CheckWalk(
+        walk.tables, walk.robot, walk.scene, walk.certificate, walk.crouch, [&](double done) {
+          bar->Update(done);
+          return !interrupt.token().stop_requested();
+        });
+    bar.reset();
+    check.not_covered.insert(check.not_covered.end(), walk.not_covered.begin(),
+                             walk.not_covered.end());
+    if (command.json) {
+      std::cout << checker::CheckJson(run, method, check);
+    } else if (!command.quiet) {
+      const std::string title =
+          Formatted("%s, %s: %zu half-steps of %s in %s", run.c_str(), method.c_str(),
+                    walk.tables.half_steps.size(), walk.robot.name.c_str(),
+                    walk.certificate.scene == "none" ? "an empty room" : walk.scene.name.c_str());
+      std::cout << checker::CheckScreen(title, check)
+                << Formatted("\n%td intervals of time\n", check.intervals);
+    }
+    if (check.stopped) return kInterrupted;
+    proved = proved && check.proved();
+  }
+  return proved ? kSuccess : kFailed;
+}
+
 }  // namespace
 
 ExitStatus CheckMotion(const CheckCommand& command) {
+  if (fs::is_directory(command.trajectory)) return CheckWalks(command);
+  if (command.robot.empty()) {
+    throw InputError({"--robot: is missing (valid: URDF, robot file or shipped robot's name)"});
+  }
   GivenRobot given = Given(command.robot);
   const UrdfTree& urdf = given.urdf;
   if (!urdf.warnings.empty()) TellUnder("warnings of the URDF", urdf.warnings);
@@ -115,7 +153,7 @@ ExitStatus CheckMotion(const CheckCommand& command) {
   if (command.json) {
     std::cout << checker::CheckJson(trajectory, check);
   } else if (!command.quiet) {
-    std::cout << checker::CheckScreen(trajectory, check);
+    std::cout << checker::CheckScreen(checker::TitleOf(trajectory), check);
   }
   return check.stopped ? kInterrupted : check.proved() ? kSuccess : kFailed;
 }
@@ -128,10 +166,13 @@ CommandAction DeclareCheck(CLI::App* app, const Toolbox&) {
   };
   const auto texts = std::make_shared<Texts>();
   app->add_option("TRAJECTORY", command->trajectory,
-                  "joint trajectory: .csv, or trajectory_msgs/JointTrajectory in .yaml")
+                  "joint trajectory: .csv, or trajectory_msgs/JointTrajectory in .yaml; or the "
+                  "folder of a run, of whose walks is proved what their certificates demand")
       ->required();
-  app->add_option("--robot", command->robot, "URDF, robot file or shipped robot's name")
-      ->required();
+  app->add_option("--method", command->method,
+                  "of a run: its method (default: all that are certified)");
+  app->add_option("--robot", command->robot,
+                  "of a trajectory: URDF, robot file or shipped robot's name");
   app->add_option("--scene", command->scene, "scene file or a shipped scene's name");
   app->add_option("--interpolation", texts->interpolation,
                   "between knots: linear, cubic, quintic (default: by what the file has)")

@@ -1,4 +1,4 @@
-#include "experiments/checker/trajectory_report.h"
+#include "experiments/checker/check_report.h"
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -17,11 +17,24 @@ struct KindText {
   const char* unit;
   double scale;  // of `unit` per SI unit
 };
-constexpr KindText kTexts[] = {{Kind::kLimits, "joint limits", "rad", 1.0},
+constexpr KindText kTexts[] = {{Kind::kContact, "one foot in the air", "s", 1.0},
+                               {Kind::kDoubleSupport, "double support", "s", 1.0},
+                               {Kind::kFloor, "floor", "mm", 1e3},
+                               {Kind::kFootSpeed, "foot speed", "m/s", 1.0},
+                               {Kind::kFootYawRate, "foot yaw rate", "rad/s", 1.0},
+                               {Kind::kLandingSpeed, "landing speed", "m/s", 1.0},
+                               {Kind::kZmp, "zmp", "mm", 1e3},
+                               {Kind::kReach, "reach", "mm", 1e3},
+                               {Kind::kLimits, "joint limits", "rad", 1.0},
                                {Kind::kSpeed, "joint speeds", "rad/s", 1.0},
                                {Kind::kAcceleration, "joint accelerations", "rad/s²", 1.0},
                                {Kind::kSelfClearance, "self clearance", "mm", 1e3},
-                               {Kind::kClearance, "clearance", "mm", 1e3}};
+                               {Kind::kClearance, "clearance", "mm", 1e3},
+                               {Kind::kGround, "ground", "mm", 1e3},
+                               {Kind::kNoStep, "no-step areas", "mm", 1e3},
+                               {Kind::kZmpRobot, "zmp of the robot", "mm", 1e3},
+                               {Kind::kFriction, "friction", "", 1.0},
+                               {Kind::kTorque, "torque", "N m", 1.0}};
 
 std::string MissedText(const TrajectoryFinding& finding, const KindText& text) {
   if (text.kind == Kind::kAcceleration && std::isinf(finding.least)) {
@@ -67,21 +80,7 @@ std::string KindScreen(const TrajectoryCheck& check, const KindText& text) {
   return head + "\n" + lines;
 }
 
-}  // namespace
-
-std::string CheckScreen(const Trajectory& trajectory, const TrajectoryCheck& check) {
-  std::string screen =
-      Formatted("%s: %zu joints, %zu knots, %.4g s, %s between knots\n\n", trajectory.file.c_str(),
-                trajectory.joints.size(), trajectory.times.size(),
-                trajectory.times.back() - trajectory.times.front(), Name(trajectory.interpolation));
-  for (const KindText& text : kTexts) screen += KindScreen(check, text);
-  if (check.stopped) screen += "stopped before all pairs of bodies were looked at\n";
-  screen += "\nnot looked at:\n";
-  for (const std::string& line : check.not_covered) screen += "  " + line + "\n";
-  return screen;
-}
-
-std::string CheckJson(const Trajectory& trajectory, const TrajectoryCheck& check) {
+std::string JsonOf(Json json, const TrajectoryCheck& check) {
   const auto number = [](double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); };
   Json findings = Json::array();
   for (const TrajectoryFinding& finding : check.findings) {
@@ -96,16 +95,43 @@ std::string CheckJson(const Trajectory& trajectory, const TrajectoryCheck& check
       if (finding.at_knots) findings.back()["at_knots"] = number(*finding.at_knots);
     }
   }
-  const Json json = {{"trajectory", trajectory.file},
-                     {"knots", trajectory.times.size()},
-                     {"duration_s", trajectory.times.back() - trajectory.times.front()},
-                     {"interpolation", Name(trajectory.interpolation)},
-                     {"proved", check.proved()},
-                     {"stopped", check.stopped},
-                     {"intervals", check.intervals},
-                     {"findings", findings},
-                     {"not_covered", check.not_covered}};
+  json.update({{"proved", check.proved()},
+               {"stopped", check.stopped},
+               {"intervals", check.intervals},
+               {"findings", findings},
+               {"not_covered", check.not_covered}});
   return json.dump(2) + "\n";
+}
+
+}  // namespace
+
+std::string TitleOf(const Trajectory& trajectory) {
+  return Formatted("%s: %zu joints, %zu knots, %.4g s, %s between knots", trajectory.file.c_str(),
+                   trajectory.joints.size(), trajectory.times.size(),
+                   trajectory.times.back() - trajectory.times.front(),
+                   Name(trajectory.interpolation));
+}
+
+std::string CheckScreen(const std::string& title, const TrajectoryCheck& check) {
+  std::string screen = title + "\n\n";
+  for (const KindText& text : kTexts) screen += KindScreen(check, text);
+  if (check.stopped) screen += "stopped before all was looked at\n";
+  screen += "\nnot looked at:\n";
+  for (const std::string& line : check.not_covered) screen += "  " + line + "\n";
+  return screen;
+}
+
+std::string CheckJson(const Trajectory& trajectory, const TrajectoryCheck& check) {
+  return JsonOf({{"trajectory", trajectory.file},
+                 {"knots", trajectory.times.size()},
+                 {"duration_s", trajectory.times.back() - trajectory.times.front()},
+                 {"interpolation", Name(trajectory.interpolation)}},
+                check);
+}
+
+std::string CheckJson(const std::string& run, const std::string& method,
+                      const TrajectoryCheck& check) {
+  return JsonOf({{"run", run}, {"method", method}}, check);
 }
 
 }  // namespace halfstep::checker

@@ -1,0 +1,127 @@
+#include "experiments/checker/walk_run.h"
+
+#include <cmath>
+#include <filesystem>
+
+#include "experiments/config/experiment.h"
+#include "experiments/verify/csv_text.h"
+#include "experiments/verify/found_inputs.h"
+#include "experiments/verify/run_manifest.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/suggestion.h"
+#include "wpg/files/text.h"
+
+namespace halfstep::checker {
+namespace {
+
+namespace fs = std::filesystem;
+using verify::ReadBytes;
+
+constexpr double kTwiceRounded = 1e-9;  // times that are computed twice [s]
+
+// What smoothing/README.md defines by a row of each table has to be the same in both.
+void CheckStarts(const WalkTables& tables, const std::vector<verify::OverlapRow>& overlaps,
+                 const std::string& path) {
+  const auto& rows = tables.half_steps;
+  const auto fits = [&](size_t i) {
+    const double end = rows[i].start + rows[i].duration;
+    return std::abs(end - overlaps[i].overlap - rows[i + 1].start) <= kTwiceRounded;
+  };
+  if (rows.empty() || std::abs(rows[0].start) > 0.0) {
+    throw InputError({path + ": the walk does not begin at 0"});
+  }
+  for (size_t i = 0; i + 1 < rows.size(); ++i) {
+    if (i < overlaps.size() && fits(i)) continue;
+    throw InputError(
+        {path + Formatted(": half-step %zu does not begin where overlaps.csv has it", i + 2)});
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> CertifiedMethods(const std::string& run,
+                                          const std::optional<std::string>& method) {
+  const fs::path manifest = fs::path(run) / "manifest.json";
+  if (!fs::is_regular_file(manifest)) {
+    throw InputError({run + ": no such run folder (valid: one that `halfstep run` wrote)"});
+  }
+  std::vector<std::string> folders, known;
+  for (const auto& of :
+       verify::ReadManifest(manifest.string(), ReadBytes(manifest.string())).methods) {
+    const std::string folder = verify::FolderOfMethod(of.name);
+    const fs::path certificate = fs::path(run) / folder / "certificate.json";
+    if (!fs::is_regular_file(certificate)) continue;
+    known.push_back(folder);
+    if (method ? *method == of.name || *method == folder
+               : verify::ReadCertificateJson(certificate.string(), ReadBytes(certificate.string()))
+                         .verdict == "certified") {
+      folders.push_back(folder);
+    }
+  }
+  if (!folders.empty()) return folders;
+  if (method) throw InputError({"--method: " + Quote(*method) + " (valid: " + Joined(known) + ")"});
+  throw InputError({run + ": no walk is certified, so that nothing is claimed"});
+}
+
+WalkRun ReadWalkRun(const std::string& run, const std::string& method) {
+  const fs::path root(run), folder = root / method;
+  const auto path = [](const fs::path& in, const char* name) { return (in / name).string(); };
+  const auto read = [&](const auto& reader, const fs::path& in, const char* name) {
+    return reader(path(in, name), ReadBytes(path(in, name)));
+  };
+  WalkRun walk;
+  walk.certificate = read(verify::ReadCertificateJson, folder, "certificate.json");
+  const verify::RunManifest manifest = read(verify::ReadManifest, root, "manifest.json");
+  const ExperimentConfig config = LoadConfig(path(root, "config.yaml"), {});
+  walk.robot = verify::FindRobot({"robot",
+                                  root,
+                                  {RobotPath(config), root / walk.certificate.robot},
+                                  manifest.robot_sha256})
+                   .input;
+  for (Leg& leg : walk.robot.legs) {
+    for (LegJoint& joint : leg.joints) {
+      if (std::isinf(joint.max_acceleration) && walk.certificate.joint_acceleration) {
+        joint.max_acceleration = *walk.certificate.joint_acceleration;
+      }
+    }
+  }
+  if (const auto scene = ScenePath(config)) {
+    walk.scene =
+        verify::FindScene(
+            {"scene", root, {*scene, root / walk.certificate.scene}, manifest.scene_sha256})
+            .input;
+  }
+  walk.tables.footsteps = read(verify::ReadFootsteps, root, "footsteps.csv");
+  walk.tables.half_steps = read(verify::ReadHalfSteps, folder, "half_steps.csv");
+  const HalfStepConfig& form = config.half_step;
+  walk.crouch = form.crouch;
+  walk.tables.com_height = walk.robot.com_height - walk.crouch;
+  walk.tables.planned = {.via_lateral = form.via_lateral,
+                         .foot_ramp = form.foot_ramp,
+                         .foot_delay = form.foot_delay,
+                         .lift_share = form.lift_share,
+                         .zmp_shift = form.zmp_shift / form.duration,
+                         .zmp_bump_ramp = form.zmp_bump_ramp.value_or(1.0)};
+  if (fs::exists(folder / "overlaps.csv")) {
+    CheckStarts(walk.tables, read(verify::ReadOverlaps, folder, "overlaps.csv"),
+                path(folder, "half_steps.csv"));
+  }
+  if (config.smoothing.stop_branches != "none") {
+    walk.not_covered.push_back("stop branches, which config.yaml demands");
+  }
+  const auto count = [&](const char* kind) {
+    return std::ranges::count(walk.certificate.not_covered, kind, &verify::NotCoveredItem::kind);
+  };
+  for (const verify::NotCoveredItem& item : walk.certificate.not_covered) {
+    if (item.kind != "pair") walk.not_covered.push_back(item.sentence);
+  }
+  if (const auto pairs = count("pair"); pairs > 0) {
+    walk.not_covered.push_back(
+        Formatted("%td pairs of bodies that certificate.json lists as not watched", pairs));
+  }
+  walk.not_covered.push_back(
+      "whether the files of the run belong together, and trajectory.csv (`halfstep verify`)");
+  return walk;
+}
+
+}  // namespace halfstep::checker
