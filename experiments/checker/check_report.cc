@@ -33,12 +33,16 @@ constexpr KindText kTexts[] = {{Kind::kContact, "one foot in the air", "s", 1.0}
                                {Kind::kGround, "ground", "mm", 1e3},
                                {Kind::kNoStep, "no-step areas", "mm", 1e3},
                                {Kind::kZmpRobot, "zmp of the robot", "mm", 1e3},
-                               {Kind::kFriction, "friction", "", 1.0},
+                               {Kind::kFriction, "friction", "1", 1.0},
                                {Kind::kTorque, "torque", "N m", 1.0}};
 
 std::string MissedText(const TrajectoryFinding& finding, const KindText& text) {
   if (text.kind == Kind::kAcceleration && std::isinf(finding.least)) {
     return Formatted("%s at %.4f s: its velocity jumps there (linear pieces have no accelerations)",
+                     finding.subject.c_str(), finding.at);
+  }
+  if (std::isnan(finding.least)) {
+    return Formatted("%s at %.4f s: nothing is known there: out of reach, or singular",
                      finding.subject.c_str(), finding.at);
   }
   std::string said =
@@ -72,6 +76,9 @@ std::string KindScreen(const TrajectoryCheck& check, const KindText& text) {
     if (!std::isinf(nearest->least)) {
       head += Formatted(", each by %.4g %s or more (%s)", text.scale * nearest->least, text.unit,
                         nearest->subject.c_str());
+      if (nearest->demanded != 0.0) {
+        head += Formatted("; %.4g demanded", text.scale * nearest->demanded);
+      }
     }
   } else {
     head += Formatted("not proved: %d of %d", missed, subjects);

@@ -19,7 +19,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // An interval is not halved below this [s], nor where its bound is as near to its value.
 constexpr double kFinest = 1e-6, kMissed = 1e-9;
 constexpr std::int64_t kMostIntervals = 2'000'000;  // intervals
-constexpr double kRoundedShift = 1e-12;    // how much shorter a shift may be [s]
+constexpr double kRoundedShift = 1e-12;             // how much shorter a shift may be [s]
 
 Kind KindOf(verify::Family family) {
   switch (family) {
@@ -67,7 +67,7 @@ class WalkProof {
             WalkStatements* statements, TrajectoryCheck* check)
       : robot_(robot),
         motion_(motion),
-        height_((Interval(robot.waist_height) - Interval(crouch)).Middle()),
+        height_(Interval(robot.waist_height) - Interval(crouch)),
         statements_(*statements),
         check_(*check),
         solvers_{LegSolver(robot.legs[0]), LegSolver(robot.legs[1])} {
@@ -126,7 +126,7 @@ class WalkProof {
 
   const RobotModel& robot_;
   const WalkMotion& motion_;
-  double height_;
+  Interval height_;
   WalkStatements& statements_;
   TrajectoryCheck& check_;
   std::array<LegSolver, 2> solvers_;
@@ -237,10 +237,16 @@ TrajectoryCheck CheckWalk(const WalkTables& tables, const RobotModel& robot, con
     check.stopped = progress && !progress(knots[i + 1] / motion.end());
   }
   proof.Finish();
-  for (const verify::Family family : {verify::kFoothold, verify::kOwn}) {
-    if (demanded(family) == verify::kNotDemanded) continue;
-    check.not_covered.push_back(std::string(Nth(verify::kFamilyNames, family)) +
-                                ": is demanded, and not examined here");
+  for (size_t f = 0; f < verify::kNumFamilies; ++f) {
+    const auto family = static_cast<verify::Family>(f);
+    const bool known = family != verify::kFoothold && family != verify::kOwn;
+    if (demanded(family) == verify::kNotDemanded ||
+        (known && std::ranges::count(check.findings, KindOf(family), &TrajectoryFinding::kind))) {
+      continue;
+    }
+    check.not_covered.push_back(
+        std::string(verify::kFamilyNames[f]) +
+        (known ? ": there is nothing that this is about" : ": is demanded, and not examined here"));
   }
   check.Sort();
   return check;

@@ -34,7 +34,7 @@ WalkMotion::WalkMotion(const WalkTables& tables) {
   if (footsteps.size() < 3 || rows.size() != 2 * (footsteps.size() - 2)) {
     throw InputError({"half_steps.csv: has not two half-steps for each row of footsteps.csv"});
   }
-  const Interval omega_squared = Interval(kGravity) / Interval(com_height);
+  const Interval omega_squared = Interval(kGravity) / com_height;
   std::array<Place, 2> soles;
   for (const verify::FootstepRow& row : footsteps) {
     if (row.z != 0.0) throw InputError({"footsteps.csv: heights (valid here: a level floor)"});

@@ -14,7 +14,7 @@ struct WalkTables {
   std::vector<verify::FootstepRow> footsteps;   ///< both feet at the start, then those of the steps
   std::vector<verify::HalfStepRow> half_steps;  ///< two for each footstep
   verify::FormColumns planned;                  ///< form of half-steps whose row has none
-  double com_height = 0.0;                      ///< z_c of the pendulum [m]
+  Interval com_height;                          ///< z_c of the pendulum [m]
 };
 
 /// Where the numbers of a walk stand: CoM x, y and ZMP x, y [m], the waist's yaw [rad], and of each

@@ -95,7 +95,7 @@ WalkRun ReadWalkRun(const std::string& run, const std::string& method) {
   walk.tables.half_steps = read(verify::ReadHalfSteps, folder, "half_steps.csv");
   const HalfStepConfig& form = config.half_step;
   walk.crouch = form.crouch;
-  walk.tables.com_height = walk.robot.com_height - walk.crouch;
+  walk.tables.com_height = Interval(walk.robot.com_height) - Interval(walk.crouch);
   walk.tables.planned = {.via_lateral = form.via_lateral,
                          .foot_ramp = form.foot_ramp,
                          .foot_delay = form.foot_delay,

@@ -58,7 +58,7 @@ std::vector<size_t> HullHint(const std::vector<Corner>& corners) {
 }  // namespace
 
 WalkState::WalkState(const RobotModel& robot, const std::array<LegSolver, 2>& solvers,
-                     const WalkMotion& motion, double waist_height, double from, double to)
+                     const WalkMotion& motion, const Interval& waist_height, double from, double to)
     : robot_(robot),
       solvers_(solvers),
       middle_(0.5 * from + 0.5 * to),

@@ -52,7 +52,7 @@ class WalkState {
 
   /// Borrows all but the times.
   WalkState(const RobotModel& robot, const std::array<LegSolver, 2>& solvers,
-            const WalkMotion& motion, double waist_height, double from, double to);
+            const WalkMotion& motion, const Interval& waist_height, double from, double to);
 
   const WalkNumbers& numbers() const { return numbers_; }  ///< of the walk
   /// The flight that it is part of, or null: both soles stand.
