@@ -87,7 +87,7 @@ std::string KindScreen(const TrajectoryCheck& check, const KindText& text) {
   return head + "\n" + lines;
 }
 
-std::string JsonOf(Json json, const TrajectoryCheck& check) {
+Json JsonOf(Json json, const TrajectoryCheck& check) {
   const auto number = [](double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); };
   Json findings = Json::array();
   for (const TrajectoryFinding& finding : check.findings) {
@@ -107,7 +107,7 @@ std::string JsonOf(Json json, const TrajectoryCheck& check) {
                {"intervals", check.intervals},
                {"findings", findings},
                {"not_covered", check.not_covered}});
-  return json.dump(2) + "\n";
+  return json;
 }
 
 }  // namespace
@@ -133,12 +133,18 @@ std::string CheckJson(const Trajectory& trajectory, const TrajectoryCheck& check
                  {"knots", trajectory.times.size()},
                  {"duration_s", trajectory.times.back() - trajectory.times.front()},
                  {"interpolation", Name(trajectory.interpolation)}},
-                check);
+                check)
+             .dump(2) +
+         "\n";
 }
 
-std::string CheckJson(const std::string& run, const std::string& method,
-                      const TrajectoryCheck& check) {
-  return JsonOf({{"run", run}, {"method", method}}, check);
+std::string CheckJson(const std::string& run,
+                      const std::vector<std::pair<std::string, TrajectoryCheck>>& methods) {
+  Json json = {{"run", run}, {"methods", Json::array()}};
+  for (const auto& [method, check] : methods) {
+    json["methods"].push_back(JsonOf({{"method", method}}, check));
+  }
+  return json.dump(2) + "\n";
 }
 
 }  // namespace halfstep::checker

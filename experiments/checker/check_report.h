@@ -13,8 +13,8 @@ std::string CheckScreen(const std::string& title, const TrajectoryCheck& check);
 std::string TitleOf(const Trajectory& trajectory);
 /// What was found as one JSON object, with every finding.
 std::string CheckJson(const Trajectory& trajectory, const TrajectoryCheck& check);
-/// The same of a method's walk.
-std::string CheckJson(const std::string& run, const std::string& method,
-                      const TrajectoryCheck& check);
+/// The same of the walks of a run's methods, in one object.
+std::string CheckJson(const std::string& run,
+                      const std::vector<std::pair<std::string, TrajectoryCheck>>& methods);
 
 }  // namespace halfstep::checker

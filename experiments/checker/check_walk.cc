@@ -21,44 +21,13 @@ constexpr double kFinest = 1e-6, kMissed = 1e-9;
 constexpr std::int64_t kMostIntervals = 2'000'000;  // intervals
 constexpr double kRoundedShift = 1e-12;             // how much shorter a shift may be [s]
 
-Kind KindOf(verify::Family family) {
-  switch (family) {
-    case verify::kFloor:
-      return Kind::kFloor;
-    case verify::kFootSpeed:
-      return Kind::kFootSpeed;
-    case verify::kFootYawRate:
-      return Kind::kFootYawRate;
-    case verify::kLandingSpeed:
-      return Kind::kLandingSpeed;
-    case verify::kZmp:
-      return Kind::kZmp;
-    case verify::kReach:
-      return Kind::kReach;
-    case verify::kJoint:
-      return Kind::kLimits;
-    case verify::kJointSpeed:
-      return Kind::kSpeed;
-    case verify::kJointAcceleration:
-      return Kind::kAcceleration;
-    case verify::kSelfClearance:
-      return Kind::kSelfClearance;
-    case verify::kClearance:
-      return Kind::kClearance;
-    case verify::kGround:
-      return Kind::kGround;
-    case verify::kNoStep:
-      return Kind::kNoStep;
-    case verify::kZmpRobot:
-      return Kind::kZmpRobot;
-    case verify::kFriction:
-      return Kind::kFriction;
-    case verify::kTorque:
-      return Kind::kTorque;
-    default:
-      return Kind::kDoubleSupport;
-  }
-}
+// By family; of the last two there are no findings.
+constexpr std::array<Kind, verify::kNumFamilies> kKinds = {
+    Kind::kFloor,       Kind::kFootSpeed, Kind::kFootYawRate,  Kind::kZmp,
+    Kind::kReach,       Kind::kLimits,    Kind::kSpeed,        Kind::kSelfClearance,
+    Kind::kClearance,   Kind::kGround,    Kind::kNoStep,       Kind::kZmpRobot,
+    Kind::kTorque,      Kind::kFriction,  Kind::kAcceleration, Kind::kDoubleSupport,
+    Kind::kLandingSpeed};
 
 // Proves statements on the whole walk, all of those that are open on one interval at once.
 class WalkProof {
@@ -72,7 +41,7 @@ class WalkProof {
         check_(*check),
         solvers_{LegSolver(robot.legs[0]), LegSolver(robot.legs[1])} {
     for (const WalkStatement& statement : statements_.all()) {
-      findings_.push_back({.kind = KindOf(statement.family),
+      findings_.push_back({.kind = Nth(kKinds, statement.family),
                            .subject = statement.subject,
                            .proved = true,
                            .demanded = statement.demanded,
@@ -241,7 +210,7 @@ TrajectoryCheck CheckWalk(const WalkTables& tables, const RobotModel& robot, con
     const auto family = static_cast<verify::Family>(f);
     const bool known = family != verify::kFoothold && family != verify::kOwn;
     if (demanded(family) == verify::kNotDemanded ||
-        (known && std::ranges::count(check.findings, KindOf(family), &TrajectoryFinding::kind))) {
+        (known && std::ranges::count(check.findings, kKinds[f], &TrajectoryFinding::kind))) {
       continue;
     }
     check.not_covered.push_back(

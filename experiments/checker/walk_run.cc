@@ -63,7 +63,8 @@ std::vector<std::string> CertifiedMethods(const std::string& run,
   throw InputError({run + ": no walk is certified, so that nothing is claimed"});
 }
 
-WalkRun ReadWalkRun(const std::string& run, const std::string& method) {
+WalkRun ReadWalkRun(const std::string& run, const std::string& method,
+                    const std::string& robot_file, const std::string& scene_file) {
   const fs::path root(run), folder = root / method;
   const auto path = [](const fs::path& in, const char* name) { return (in / name).string(); };
   const auto read = [&](const auto& reader, const fs::path& in, const char* name) {
@@ -75,7 +76,7 @@ WalkRun ReadWalkRun(const std::string& run, const std::string& method) {
   const ExperimentConfig config = LoadConfig(path(root, "config.yaml"), {});
   walk.robot = verify::FindRobot({"robot",
                                   root,
-                                  {RobotPath(config), root / walk.certificate.robot},
+                                  {robot_file, RobotPath(config), root / walk.certificate.robot},
                                   manifest.robot_sha256})
                    .input;
   for (Leg& leg : walk.robot.legs) {
@@ -86,10 +87,11 @@ WalkRun ReadWalkRun(const std::string& run, const std::string& method) {
     }
   }
   if (const auto scene = ScenePath(config)) {
-    walk.scene =
-        verify::FindScene(
-            {"scene", root, {*scene, root / walk.certificate.scene}, manifest.scene_sha256})
-            .input;
+    walk.scene = verify::FindScene({"scene",
+                                    root,
+                                    {scene_file, *scene, root / walk.certificate.scene},
+                                    manifest.scene_sha256})
+                     .input;
   }
   walk.tables.footsteps = read(verify::ReadFootsteps, root, "footsteps.csv");
   walk.tables.half_steps = read(verify::ReadHalfSteps, folder, "half_steps.csv");

@@ -27,8 +27,10 @@ std::vector<std::string> CertifiedMethods(const std::string& run,
                                           const std::optional<std::string>& method);
 
 /// Reads the walk of a method's folder. Robot and scene are found as `halfstep verify` finds them:
-/// in the folder, or by SHA-256 where the config has them. Throws InputError for what cannot be
-/// read, and for tables that disagree on when half-steps begin.
-WalkRun ReadWalkRun(const std::string& run, const std::string& method);
+/// in the folder, or by SHA-256 where `robot_file` or `scene_file` ("": not given) or the config
+/// has them. Throws InputError for what cannot be read, and for tables that disagree on when
+/// half-steps begin.
+WalkRun ReadWalkRun(const std::string& run, const std::string& method,
+                    const std::string& robot_file = "", const std::string& scene_file = "");
 
 }  // namespace halfstep::checker

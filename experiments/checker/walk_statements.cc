@@ -206,7 +206,8 @@ Kept WalkStatements::OfBodies(WalkStatement* statement, WalkState* state) const 
   if (statement->family == verify::kGround && body.leg >= 0 && body.link == 5) {
     // It reaches no lower than its sole (wpg/README.md, "Robots").
     const Curve& z = state->numbers()[kSole + 4 * static_cast<size_t>(body.leg) + 2];
-    return z.over[0].lo >= -kOnFloor ? kDoesNotCount : Of(z);
+    const auto kept = [](double height) { return height >= -kOnFloor ? kInfinity : height; };
+    return {kept(z.over[0].lo), kept(z.at[0].Middle())};
   }
   const auto placed = [&](size_t i) -> Placed {
     const RobotBody& of = robot_.bodies[i];

@@ -88,8 +88,9 @@ std::vector<std::string> NotLookedAt(const checker::Trajectory& trajectory, cons
 ExitStatus CheckWalks(const CheckCommand& command) {
   const std::string& run = command.trajectory;
   bool proved = true;
+  std::vector<std::pair<std::string, checker::TrajectoryCheck>> checks;
   for (const std::string& method : checker::CertifiedMethods(run, command.method)) {
-    const checker::WalkRun walk = checker::ReadWalkRun(run, method);
+    const checker::WalkRun walk = checker::ReadWalkRun(run, method, command.robot, command.scene);
     InterruptGuard interrupt;
     std::optional<ProgressBar> bar(std::in_place, "check " + method, command.quiet);
     checker::TrajectoryCheck check = checker::CheckWalk(
@@ -100,19 +101,19 @@ ExitStatus CheckWalks(const CheckCommand& command) {
     bar.reset();
     check.not_covered.insert(check.not_covered.end(), walk.not_covered.begin(),
                              walk.not_covered.end());
-    if (command.json) {
-      std::cout << checker::CheckJson(run, method, check);
-    } else if (!command.quiet) {
+    if (!command.json && !command.quiet) {
       const std::string title =
           Formatted("%s, %s: %zu half-steps of %s in %s", run.c_str(), method.c_str(),
                     walk.tables.half_steps.size(), walk.robot.name.c_str(),
                     walk.certificate.scene == "none" ? "an empty room" : walk.scene.name.c_str());
       std::cout << checker::CheckScreen(title, check)
-                << Formatted("\n%td intervals of time\n", check.intervals);
+                << Formatted("\n%td intervals of time\n\n", check.intervals);
     }
     if (check.stopped) return kInterrupted;
     proved = proved && check.proved();
+    checks.emplace_back(method, std::move(check));
   }
+  if (command.json) std::cout << checker::CheckJson(run, checks);
   return proved ? kSuccess : kFailed;
 }
 
@@ -120,6 +121,10 @@ ExitStatus CheckWalks(const CheckCommand& command) {
 
 ExitStatus CheckMotion(const CheckCommand& command) {
   if (fs::is_directory(command.trajectory)) return CheckWalks(command);
+  if (!fs::exists(command.trajectory)) {
+    throw InputError({command.trajectory + ": does not exist (valid: a trajectory, or a run)"});
+  }
+  if (command.method) throw InputError({"--method: is of runs (valid: the folder of a run)"});
   if (command.robot.empty()) {
     throw InputError({"--robot: is missing (valid: URDF, robot file or shipped robot's name)"});
   }
@@ -172,7 +177,8 @@ CommandAction DeclareCheck(CLI::App* app, const Toolbox&) {
   app->add_option("--method", command->method,
                   "of a run: its method (default: all that are certified)");
   app->add_option("--robot", command->robot,
-                  "of a trajectory: URDF, robot file or shipped robot's name");
+                  "of a trajectory: URDF, robot file or shipped robot's name; of a run: where its "
+                  "robot file is now");
   app->add_option("--scene", command->scene, "scene file or a shipped scene's name");
   app->add_option("--interpolation", texts->interpolation,
                   "between knots: linear, cubic, quintic (default: by what the file has)")
@@ -192,7 +198,13 @@ CommandAction DeclareCheck(CLI::App* app, const Toolbox&) {
       ->allow_extra_args(false);
   app->add_flag("--quiet", command->quiet, "print nothing but errors");
   app->add_flag("--json", command->json, "print JSON");
-  return [command, texts] {
+  return [app, command, texts] {
+    for (const char* const option : {"--interpolation", "--self-clearance", "--clearance",
+                                     "--acceleration", "--ignore", "--package"}) {
+      if (app->count(option) == 0 || !fs::is_directory(command->trajectory)) continue;
+      throw InputError({std::string(option) +
+                        ": is of trajectories (valid for a run: --method, --robot, --scene)"});
+    }
     for (const YamlOverride& package : ParseOverrides(texts->packages, "--package")) {
       command->packages[package.key] = fs::absolute(package.value).lexically_normal().string();
     }
