@@ -33,8 +33,12 @@ constexpr KindText kTexts[] = {{Kind::kContact, "one foot in the air", "s", 1.0}
                                {Kind::kGround, "ground", "mm", 1e3},
                                {Kind::kNoStep, "no-step areas", "mm", 1e3},
                                {Kind::kZmpRobot, "zmp of the robot", "mm", 1e3},
-                               {Kind::kFriction, "friction", "1", 1.0},
+                               {Kind::kFriction, "friction", "", 1.0},
                                {Kind::kTorque, "torque", "N m", 1.0}};
+
+std::string Valued(double x, const KindText& text) {
+  return Formatted("%.4g", text.scale * x) + (text.unit[0] == '\0' ? "" : " ") + text.unit;
+}
 
 std::string MissedText(const TrajectoryFinding& finding, const KindText& text) {
   if (text.kind == Kind::kAcceleration && std::isinf(finding.least)) {
@@ -45,12 +49,11 @@ std::string MissedText(const TrajectoryFinding& finding, const KindText& text) {
     return Formatted("%s at %.4f s: nothing is known there: out of reach, or singular",
                      finding.subject.c_str(), finding.at);
   }
-  std::string said =
-      Formatted("%s at %.4f s: %.4g %s, %.4g demanded", finding.subject.c_str(), finding.at,
-                text.scale * finding.least, text.unit, text.scale * finding.demanded);
+  std::string said = Formatted("%s at %.4f s: ", finding.subject.c_str(), finding.at) +
+                     Valued(finding.least, text) +
+                     Formatted(", %.4g demanded", text.scale * finding.demanded);
   if (finding.at_knots && *finding.at_knots >= finding.demanded) {
-    said +=
-        Formatted("; no knot shows it (%.4g %s there)", text.scale * *finding.at_knots, text.unit);
+    said += "; no knot shows it (" + Valued(*finding.at_knots, text) + " there)";
   }
   return said;
 }
@@ -74,8 +77,7 @@ std::string KindScreen(const TrajectoryCheck& check, const KindText& text) {
   if (missed == 0) {
     head += Formatted("proved for all t: %d", subjects);
     if (!std::isinf(nearest->least)) {
-      head += Formatted(", each by %.4g %s or more (%s)", text.scale * nearest->least, text.unit,
-                        nearest->subject.c_str());
+      head += ", each by " + Valued(nearest->least, text) + " or more (" + nearest->subject + ")";
       if (nearest->demanded != 0.0) {
         head += Formatted("; %.4g demanded", text.scale * nearest->demanded);
       }
