@@ -75,6 +75,7 @@ struct Pair {
   const ConvexBody* b = nullptr;
   int link_b = -1;  // −1: at X_WB
   Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
+  double error = 0.0;  // how far the second one may be from there [m]
   std::vector<JointedRobot::Lever> levers_of_a, levers_of_b;  // the second: none for obstacles
 };
 
@@ -235,7 +236,6 @@ ConvexBody BodyOfObstacle(const Obstacle& obstacle) {
   const auto refuse = [&](const std::string& what) {
     throw InputError({"obstacle " + obstacle.name + ": " + what});
   };
-  if (!obstacle.rests()) refuse("moves (valid here: obstacles that rest)");
   if (const auto* mesh = std::get_if<TriangleMesh>(&obstacle.shape)) {
     if (mesh->cubes || mesh->hollow) refuse("is a map or hollow (valid here: solids)");
     return MakeHull(mesh->vertices);
@@ -274,7 +274,12 @@ TrajectoryCheck CheckTrajectory(const Trajectory& trajectory, const JointedRobot
   std::vector<Pair> pairs = SelfPairs(robot, demands);
   std::vector<ConvexBody> obstacles;
   obstacles.reserve(scene.obstacles.size());
-  for (const Obstacle& obstacle : scene.obstacles) obstacles.push_back(BodyOfObstacle(obstacle));
+  for (const Obstacle& obstacle : scene.obstacles) {
+    if (!obstacle.rests()) {
+      throw InputError({"obstacle " + obstacle.name + ": moves (valid here: obstacles that rest)"});
+    }
+    obstacles.push_back(BodyOfObstacle(obstacle));
+  }
   for (size_t k = 0; k < obstacles.size(); ++k) {
     for (const JointedRobot::Body& body : robot.bodies()) {
       pairs.push_back({.kind = Kind::kClearance,
@@ -282,6 +287,7 @@ TrajectoryCheck CheckTrajectory(const Trajectory& trajectory, const JointedRobot
                        .a = &body,
                        .b = &obstacles[k],
                        .X_WB = scene.obstacles[k].X_WO,
+                       .error = scene.obstacles[k].motion.error,
                        .levers_of_a = robot.Levers(body, 0),
                        .levers_of_b = {}});
     }
@@ -294,8 +300,9 @@ TrajectoryCheck CheckTrajectory(const Trajectory& trajectory, const JointedRobot
     }
     if (pair.levers_of_a.empty()) continue;  // rigid, or fixed in the world
     const PairLook look(pair, &motion);
-    const double demanded =
-        pair.kind == Kind::kClearance ? demands.clearance : demands.self_clearance;
+    const double demanded = pair.kind == Kind::kSelfClearance ? demands.self_clearance
+                            : pair.error > 0.0 ? Above(demands.clearance + pair.error)
+                                               : demands.clearance;
     const Proof proof = Prove(motion.curves().begin(), motion.curves().end(), demanded, look);
     AddFinding(
         pair.kind, pair.subject, demanded, proof, motion.curves().times(),

@@ -67,7 +67,7 @@ struct TrajectoryCheck {
   void Sort();          ///< findings as above
 };
 
-/// The solid of an obstacle that rests, a mesh's hull. Throws InputError for others.
+/// The solid of an obstacle, of a mesh its hull. Throws InputError for maps and hollow meshes.
 ConvexBody BodyOfObstacle(const Obstacle& obstacle);
 
 /// Looks at every statement, in interval arithmetic. On [m − h, m + h] a pair of bodies keeps at

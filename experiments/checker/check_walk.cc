@@ -200,7 +200,11 @@ TrajectoryCheck CheckWalk(const WalkTables& tables, const RobotModel& robot, con
     AddSteps(motion, robot, scene, demanded(verify::kNoStep), &check);
   }
   WalkProof proof(robot, motion, crouch, &statements, &check);
-  const std::vector<double>& knots = motion.knots();
+  std::vector<double> knots = motion.knots();
+  for (const double t : statements.WaypointTimes()) {
+    if (t > 0.0 && t < motion.end()) knots.push_back(t);
+  }
+  std::ranges::sort(knots);
   for (size_t i = 0; i + 1 < knots.size() && !check.stopped; ++i) {
     proof.Prove(knots[i], knots[i + 1]);
     check.stopped = progress && !progress(knots[i + 1] / motion.end());

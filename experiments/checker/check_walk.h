@@ -17,7 +17,7 @@ namespace halfstep::checker {
 /// smoothing/README.md, "Margins"; what is demanded of a family that is not looked at is among
 /// `not_covered`. `crouch`: how far the waist is kept below where the robot file has it [m].
 /// `progress(done)`, done ∈ [0, 1], says whether to go on. Throws InputError for walks, robots and
-/// scenes of which nothing can be said here: levels, obstacles that move, offset legs, tubes.
+/// scenes of which nothing can be said here: levels, offset legs, tubes, maps.
 /// Source: experiments/check.md.
 TrajectoryCheck CheckWalk(const WalkTables& tables, const RobotModel& robot, const Scene& scene,
                           const verify::CertificateText& certificate, double crouch,

@@ -62,6 +62,7 @@ WalkState::WalkState(const RobotModel& robot, const std::array<LegSolver, 2>& so
     : robot_(robot),
       solvers_(solvers),
       middle_(0.5 * from + 0.5 * to),
+      h_(Interval(from, to).FarthestFrom(middle_)),
       numbers_(motion.On(from, to)),
       centers_(robot.bodies.size()) {
   for (const WalkMotion::Flight& flight : motion.flights()) {

@@ -60,6 +60,7 @@ class WalkState {
   bool Stands(size_t side) const {
     return flight_ == nullptr || flight_->side != side;
   }                                          ///< a foot
+  double h() const { return h_; }            ///< nothing is farther from the middle [s]
   double middle() const { return middle_; }  ///< [s]
   SupportEdges Support() const;              ///< of the soles that stand
 
@@ -80,7 +81,7 @@ class WalkState {
 
   const RobotModel& robot_;
   const std::array<LegSolver, 2>& solvers_;
-  double middle_;
+  double middle_, h_;
   WalkNumbers numbers_;
   const WalkMotion::Flight* flight_ = nullptr;
   FrameIn<Curve> X_WB_;

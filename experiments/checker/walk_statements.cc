@@ -61,6 +61,46 @@ Eigen::Isometry3d About(const FrameIn<Curve>& X) {
   return about;
 }
 
+// The frame of an obstacle on an interval that holds no time of a waypoint: it goes straight from
+// one to the next, and turns steadily about the vertical.
+FrameIn<Curve> PlaceOf(const Obstacle& obstacle, const WalkState& state) {
+  FrameIn<Curve> X_WO = FrameOf<Curve>(obstacle.X_WO);
+  if (obstacle.motion.waypoints.empty()) return X_WO;
+  ObstacleMotion::Waypoint from{.t = 0.0, .translation = obstacle.X_WO.translation()};
+  for (const ObstacleMotion::Waypoint& to : obstacle.motion.waypoints) {
+    if (to.t <= state.middle()) {
+      from = to;
+      continue;
+    }
+    const Interval rate = Interval(1.0) / (Interval(to.t) - Interval(from.t));
+    Curve share;
+    share.h = state.h();
+    share.at = {(Interval(state.middle()) - Interval(from.t)) * rate, rate, 0.0};
+    share.Enclose();
+    const auto between = [&](double a, double b) {
+      return Curve(a) + (Interval(b) - Interval(a)) * share;
+    };
+    const auto [s, c] = SinCosOf(between(from.yaw, to.yaw));
+    X_WO = TurnAbout(Eigen::Vector3d::UnitZ(), s, c) * X_WO;
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      Nth(X_WO.p, i) = between(from.translation[i], to.translation[i]);
+    }
+    return X_WO;
+  }
+  // At the last one.
+  const auto [s, c] = SinCosOf(Curve(from.yaw));
+  X_WO = TurnAbout(Eigen::Vector3d::UnitZ(), s, c) * X_WO;
+  X_WO.p = VectorOf<Curve>(from.translation);
+  return X_WO;
+}
+
+// How far a point of it may be from there: error + speed·min(|t − t_m|, horizon) [m].
+double FarthestAway(const ObstacleMotion& motion, const WalkState& state) {
+  if (motion.speed == 0.0) return motion.error;
+  const double since = Above(std::abs(state.middle() - motion.measured_at)) + state.h();
+  return Above(motion.error + Above(motion.speed * std::min(Above(since), motion.horizon)));
+}
+
 }  // namespace
 
 // A body is seen from the other one, so that their common motion does not count.
@@ -84,11 +124,10 @@ Kept WalkStatements::Apart(const Placed& a, const Placed& b, double demanded,
 WalkStatements::WalkStatements(const RobotModel& robot, const Scene& scene,
                                const verify::CertificateText& certificate)
     : robot_(robot), scene_(scene), certificate_(certificate) {
-  const auto add = [&](Family family, const std::string& subject, size_t a = 0, size_t b = 0,
-                       double more = 0.0) {
+  const auto add = [&](Family family, const std::string& subject, size_t a = 0, size_t b = 0) {
     const double demanded = Nth(certificate.demanded, family);
     if (demanded == verify::kNotDemanded) return;
-    all_.push_back({family, subject, demanded + more, a, b});
+    all_.push_back({family, subject, demanded, a, b});
   };
   add(verify::kFloor, "swing foot");
   if (certificate.foot_speed) add(verify::kFootSpeed, "swing foot");
@@ -113,17 +152,22 @@ WalkStatements::WalkStatements(const RobotModel& robot, const Scene& scene,
   for (size_t i = 0; i < robot.bodies.size(); ++i) {
     add(verify::kGround, robot.bodies[i].name, i);
     for (size_t k = 0; k < scene.obstacles.size(); ++k) {
-      add(verify::kClearance, robot.bodies[i].name + " - " + scene.obstacles[k].name, i, k,
-          scene.obstacles[k].UncertaintyAt(0.0));
+      add(verify::kClearance, robot.bodies[i].name + " - " + scene.obstacles[k].name, i, k);
     }
   }
-  for (const Obstacle& obstacle : scene.obstacles) {
-    obstacles_.push_back({BodyOfObstacle(obstacle), FrameOf<Curve>(obstacle.X_WO), {}});
-    Resting& body = obstacles_.back();
-    body.center = FrameOf(obstacle.X_WO) * VectorOf(body.shape.center);
-  }
+  for (const Obstacle& obstacle : scene.obstacles) obstacles_.push_back(BodyOfObstacle(obstacle));
   add(verify::kZmpRobot, "robot");
   add(verify::kFriction, "soles");
+}
+
+std::vector<double> WalkStatements::WaypointTimes() const {
+  std::vector<double> times;
+  for (const Obstacle& obstacle : scene_.obstacles) {
+    for (const ObstacleMotion::Waypoint& waypoint : obstacle.motion.waypoints) {
+      times.push_back(waypoint.t);
+    }
+  }
+  return times;
 }
 
 Kept WalkStatements::Look(WalkStatement* statement, WalkState* state) const {
@@ -219,8 +263,15 @@ Kept WalkStatements::OfBodies(WalkStatement* statement, WalkState* state) const 
     return Apart(placed(statement->b), moving, statement->demanded, &statement->direction);
   }
   if (statement->family == verify::kClearance) {
-    return Apart(obstacles_[statement->b].placed(), moving, statement->demanded,
-                 &statement->direction);
+    const Obstacle& obstacle = scene_.obstacles[statement->b];
+    const ConvexBody& shape = obstacles_[statement->b];
+    const FrameIn<Curve> X_WO = PlaceOf(obstacle, *state);
+    const VectorIn<Curve> middle = X_WO * VectorOf<Curve>(shape.center);
+    const Vector center = {middle[0].over[0], middle[1].over[0], middle[2].over[0]};
+    const double away = FarthestAway(obstacle.motion, *state);
+    const Kept kept = Apart({shape, X_WO, center}, moving, Above(statement->demanded + away),
+                            &statement->direction);
+    return {checker::Below(kept.bound - away), kept.value - away};
   }
   const double lowest = (moving.center[2] - Interval(body.shape.radius)).lo;
   if (lowest >= statement->demanded) return {lowest, lowest};

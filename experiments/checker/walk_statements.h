@@ -29,11 +29,12 @@ struct WalkStatement {
 /// Statements of a robot among obstacles, and how to look at them.
 class WalkStatements {
  public:
-  /// Borrows all but the obstacles' bodies. Throws InputError for obstacles that are no solids at
-  /// rest.
+  /// Borrows all but the obstacles' bodies. Throws InputError for obstacles that are no solids.
   WalkStatements(const RobotModel& robot, const Scene& scene,
                  const verify::CertificateText& certificate);
 
+  /// When obstacles set off or turn to where they go next [s]: no interval may reach across.
+  std::vector<double> WaypointTimes() const;
   std::vector<WalkStatement>& all() { return all_; }  ///< of families that count at instants
   /// +∞ where a statement does not count. Throws NotDefined where nothing is known.
   Kept Look(WalkStatement* statement, WalkState* state) const;
@@ -56,13 +57,7 @@ class WalkStatements {
   const RobotModel& robot_;
   const Scene& scene_;
   const verify::CertificateText& certificate_;
-  struct Resting {
-    ConvexBody shape;
-    FrameIn<Curve> X_W;
-    Vector center;
-    Placed placed() const { return {shape, X_W, center}; }
-  };
-  std::vector<Resting> obstacles_;
+  std::vector<ConvexBody> obstacles_;
   std::vector<WalkStatement> all_;
 };
 
