@@ -23,8 +23,10 @@ struct Taylor {
   double h = 0.0;                      ///< [s]; of constants 0
 
   Taylor() = default;
+  /// A constant.
   Taylor(const Interval& x) { at[0] = over[0] = x; }  // NOLINT: a number is a function
-  Taylor(double x) : Taylor(Interval(x)) {}           // NOLINT
+  /// The same.
+  Taylor(double x) : Taylor(Interval(x)) {}  // NOLINT
 
   /// Finds over[0 … N − 1]: |f⁽ᵏ⁾(t) − f⁽ᵏ⁾(m)| ≤ h|f⁽ᵏ⁺¹⁾(m)| + ½h²|f⁽ᵏ⁺²⁾(m)| + …
   Taylor& Enclose() {
@@ -50,26 +52,32 @@ struct Taylor {
     return of;
   }
 
+  /// −a.
   friend Taylor operator-(Taylor a) {
     for (Interval& x : a.at) x = -x;
     for (Interval& x : a.over) x = -x;
     return a;
   }
+  /// a + b.
   friend Taylor operator+(Taylor a, const Taylor& b) {
     for (size_t k = 0; k < N; ++k) a.at[k] = a.at[k] + b.at[k];
     a.over[N] = a.over[N] + b.over[N];
     a.h = std::max(a.h, b.h);
     return a.Enclose();
   }
+  /// a − b.
   friend Taylor operator-(const Taylor& a, const Taylor& b) { return a + (-b); }
+  /// k·a.
   friend Taylor operator*(const Interval& k, Taylor a) {
     for (Interval& x : a.at) x = k * x;
     for (Interval& x : a.over) x = k * x;
     return a;
   }
+  /// The same; by 0 and 1 without rounding.
   friend Taylor operator*(double k, const Taylor& a) {
     return k == 0.0 ? Taylor() : k == 1.0 ? a : Interval(k) * a;
   }
+  /// a·b, by Leibniz' rule.
   friend Taylor operator*(const Taylor& a, const Taylor& b) {
     Taylor c;
     c.h = std::max(a.h, b.h);

@@ -30,8 +30,9 @@ Interval Mean(const Interval& a, const Interval& b) { return Interval(0.5) * (a 
 }  // namespace
 
 WalkMotion::WalkMotion(const WalkTables& tables) {
-  const auto& [footsteps, rows, planned, com_height] = tables;
-  if (footsteps.size() < 3 || rows.size() != 2 * (footsteps.size() - 2)) {
+  const auto& [footsteps, rows, starts, planned, com_height] = tables;
+  if (footsteps.size() < 3 || rows.size() != 2 * (footsteps.size() - 2) ||
+      starts.size() != rows.size()) {
     throw InputError({"half_steps.csv: has not two half-steps for each row of footsteps.csv"});
   }
   const Interval omega_squared = Interval(kGravity) / com_height;
@@ -77,7 +78,7 @@ WalkMotion::WalkMotion(const WalkTables& tables) {
           form.foot_delay >= 0.0 && form.foot_delay < 0.45 * (1.0 - form.zmp_shift))) {
       Refuse(i, "is none that there can be");
     }
-    const Interval duration = row.duration, start = row.start, shift = form.zmp_shift;
+    const Interval duration = row.duration, start = starts[i], shift = form.zmp_shift;
     const Interval first = Interval(0.5) - Interval(0.5) * shift, second = Interval(1.0) - first;
     const Interval lift = Interval(form.lift_share) * first, delay = form.foot_delay;
     steps_.push_back(

@@ -13,6 +13,7 @@ namespace halfstep::checker {
 struct WalkTables {
   std::vector<verify::FootstepRow> footsteps;   ///< both feet at the start, then those of the steps
   std::vector<verify::HalfStepRow> half_steps;  ///< two for each footstep
+  std::vector<Interval> starts;                 ///< t_i of each [s]; their rows' are not read
   verify::FormColumns planned;                  ///< form of half-steps whose row has none
   Interval com_height;                          ///< z_c of the pendulum [m]
 };

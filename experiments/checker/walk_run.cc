@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <optional>
 
 #include "experiments/config/experiment.h"
 #include "experiments/verify/csv_text.h"
@@ -19,22 +20,23 @@ using verify::ReadBytes;
 
 constexpr double kTwiceRounded = 1e-9;  // times that are computed twice [s]
 
-// What smoothing/README.md defines by a row of each table has to be the same in both.
-void CheckStarts(const WalkTables& tables, const std::vector<verify::OverlapRow>& overlaps,
-                 const std::string& path) {
-  const auto& rows = tables.half_steps;
-  const auto fits = [&](size_t i) {
-    const double end = rows[i].start + rows[i].duration;
-    return std::abs(end - overlaps[i].overlap - rows[i + 1].start) <= kTwiceRounded;
-  };
-  if (rows.empty() || std::abs(rows[0].start) > 0.0) {
-    throw InputError({path + ": the walk does not begin at 0"});
-  }
-  for (size_t i = 0; i + 1 < rows.size(); ++i) {
-    if (i < overlaps.size() && fits(i)) continue;
+// t_{i+1} = t_i + T_i − Δ_i, with the overlaps where there are any; half_steps.csv has to agree.
+std::vector<Interval> StartsOf(const std::vector<verify::HalfStepRow>& rows,
+                               const std::optional<std::vector<verify::OverlapRow>>& overlaps,
+                               const std::string& path) {
+  std::vector<Interval> starts;
+  for (size_t i = 0; i < rows.size(); ++i) {
+    if (i > 0 && overlaps && i <= overlaps->size()) {
+      starts.push_back(starts[i - 1] + Interval(rows[i - 1].duration) -
+                       Interval((*overlaps)[i - 1].overlap));
+    } else {
+      starts.emplace_back(i > 0 && !overlaps ? rows[i].start : 0.0);
+    }
+    if (std::abs(starts[i].Middle() - rows[i].start) <= kTwiceRounded) continue;
     throw InputError(
-        {path + Formatted(": half-step %zu does not begin where overlaps.csv has it", i + 2)});
+        {path + Formatted(": half-step %zu does not begin where overlaps.csv has it", i + 1)});
   }
+  return starts;
 }
 
 }  // namespace
@@ -104,10 +106,11 @@ WalkRun ReadWalkRun(const std::string& run, const std::string& method,
                          .lift_share = form.lift_share,
                          .zmp_shift = form.zmp_shift / form.duration,
                          .zmp_bump_ramp = form.zmp_bump_ramp.value_or(1.0)};
+  std::optional<std::vector<verify::OverlapRow>> overlaps;
   if (fs::exists(folder / "overlaps.csv")) {
-    CheckStarts(walk.tables, read(verify::ReadOverlaps, folder, "overlaps.csv"),
-                path(folder, "half_steps.csv"));
+    overlaps = read(verify::ReadOverlaps, folder, "overlaps.csv");
   }
+  walk.tables.starts = StartsOf(walk.tables.half_steps, overlaps, path(folder, "half_steps.csv"));
   if (config.smoothing.stop_branches != "none") {
     walk.not_covered.push_back("stop branches, which config.yaml demands");
   }

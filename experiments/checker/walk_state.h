@@ -18,8 +18,8 @@ using Rate = Taylor<1>;  ///< a function of time whose derivative is bounded
 struct SupportEdges {
   /// An edge's unit normal to the left, and n·x on it [m].
   struct Edge {
-    std::array<Interval, 2> n;
-    Interval at;
+    std::array<Interval, 2> n;  ///< the normal
+    Interval at;                ///< n·x
   };
   std::vector<Edge> edges;  ///< in their order
 
@@ -35,14 +35,15 @@ class WalkState {
  public:
   /// A force and its moment about the reference point [N], [N m].
   struct Wrench {
-    VectorIn<Rate> force{}, moment{};
+    VectorIn<Rate> force{};   ///< [N]
+    VectorIn<Rate> moment{};  ///< [N m]
   };
   /// What moves the links, and the floor's part of it.
   struct Dynamics {
-    std::array<std::array<Wrench, 6>, 2> links;
-    Wrench floor;               ///< of all bodies
-    Eigen::Vector2d reference;  ///< moments are about this point of the floor [m]
-    std::array<Rate, 2> zmp;    ///< of the robot, seen from there [m]
+    std::array<std::array<Wrench, 6>, 2> links;  ///< of the legs by Index(Side)
+    Wrench floor;                                ///< of all bodies
+    Eigen::Vector2d reference;                   ///< moments are about this point of the floor [m]
+    std::array<Rate, 2> zmp;                     ///< of the robot, seen from there [m]
 
     /// The robot's ZMP in W [m].
     std::array<Rate, 2> zmp_W() const {

@@ -40,9 +40,9 @@ class WalkStatements {
   Kept Look(WalkStatement* statement, WalkState* state) const;
   /// A convex body in motion, and bounds of where the centre of its sphere is.
   struct Placed {
-    const ConvexBody& shape;
-    const FrameIn<Curve>& X_W;
-    const Vector& center;
+    const ConvexBody& shape;    ///< in its own frame
+    const FrameIn<Curve>& X_W;  ///< that frame
+    const Vector& center;       ///< of its bounding sphere, in W [m]
   };
   /// How far two of them are apart along the best direction known [m].
   static Kept Apart(const Placed& a, const Placed& b, double demanded, Eigen::Vector3d* direction);

@@ -323,7 +323,8 @@ TEST(CheckWalk, NudgedWalksAreNotProved) {
     return walk;
   };
   WalkRun walk = only(Box(), verify::kClearance);
-  walk.tables.half_steps[1].start -= 0.002;  // the dichotomy ends within a millisecond
+  walk.tables.starts[1] =
+      walk.tables.starts[1] - Interval(0.002);  // the dichotomy ends within a millisecond
   EXPECT_THAT(missed(walk), HasSubstr("RLEG_LINK5 - box"));
 
   walk = only(Box(), verify::kClearance);
@@ -372,7 +373,7 @@ TEST(CheckWalk, WhatItDoesNotKnowIsRefused) {
   walk.robot.legs[0].offsets = "hip axes A and B pass each other at 50.0 mm";
   EXPECT_THAT(refused(walk), HasSubstr("pass each other at 50.0 mm (valid here: hip axes"));
   walk = Wren().walk;
-  walk.tables.half_steps[2].start = walk.tables.half_steps[1].start - 1e-6;
+  walk.tables.starts[2] = walk.tables.starts[1] - Interval(1e-6);
   EXPECT_THAT(refused(walk), HasSubstr("half-step 3: begins or ends before the one before it"));
   walk = Box().walk;
   walk.tables.half_steps.pop_back();
@@ -406,6 +407,12 @@ TEST(CheckCommand, ChecksRuns) {
   EXPECT_THAT(Halfstep(forged.path(), {"check", "walk"}).err, HasSubstr("walk: does not exist"));
   EXPECT_THAT(Halfstep(forged.path(), {"check", "run", "--clearance", "0.1"}).err,
               HasSubstr("--clearance: is of trajectories (valid for a run: --method,"));
+  const auto overlaps = forged / "run/dichotomy/overlaps.csv";
+  text = ReadText(overlaps);
+  text.replace(text.find("1,up_down,0.6"), 13, "1,up_down,0.5");
+  WriteText(overlaps, text);
+  EXPECT_THAT(Halfstep(forged.path(), {"check", "run", "--method", "dichotomy"}).err,
+              HasSubstr("half_steps.csv: half-step 2 does not begin where overlaps.csv has it"));
   std::filesystem::remove(forged / "run/dichotomy/half_steps.csv");
   EXPECT_EQ(Halfstep(forged.path(), {"check", "run", "--method", "dichotomy"}).status, kBadInput);
 }
