@@ -59,8 +59,9 @@ constexpr CommandEntry kEntries[] = {
      DeclareScene},
     {"check",
      "Prove of anybody's joint trajectory that it keeps limits and clearances between its "
-     "knots.\n\n"
-     "  example: halfstep check arm.csv --robot arm.urdf --scene table.yaml --clearance 0.01",
+     "knots,\nor of a run's walks what their certificates demand, in interval arithmetic.\n\n"
+     "  example: halfstep check arm.csv --robot arm.urdf --scene table.yaml --clearance 0.01\n"
+     "  example: halfstep check runs/bar_8cm",
      DeclareCheck},
     {"verify",
      "Check a run's certificates independently: played motion, forward kinematics, distances\n"
