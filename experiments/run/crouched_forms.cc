@@ -5,9 +5,9 @@
 #include <deque>
 
 #include "experiments/run/certified_half_steps.h"
-#include "experiments/run/ground_steps.h"
 #include "experiments/run/half_step_table.h"
 #include "planner/collision/collision_world.h"
+#include "planner/search/step_set.h"
 #include "smoothing/margins/demandable.h"
 #include "smoothing/margins/tube_shift.h"
 #include "wpg/files/text.h"
@@ -136,7 +136,11 @@ bool Overhead::Bars() const {
 }
 
 CrouchedForm Overhead::FormOf(int step) const {
+  constexpr int kShare = 5;
   const double size = SizeOf(place_.robot);
+  const int all = MakeStepSet(config_.step_set, PrototypeOf(config_), [](const HalfStep&) {
+                    return true;
+                  }).size();
   CrouchedForm best;
   for (const double lift : {1.0, 0.64, 0.48, 0.32}) {
     ExperimentConfig tried = config_;
@@ -144,8 +148,7 @@ CrouchedForm Overhead::FormOf(int step) const {
     tried.half_step.via_height = std::round(1e3 * lift * config_.half_step.via_height) / 1e3;
     const int places = CertifiedHalfSteps(place_.robot, tried).size();
     if (places > best.places) best = {tried.half_step, places, {}};
-    constexpr size_t kShare = 5;
-    if (kShare * static_cast<size_t>(places) >= PlacesOf(config_.step_set).size()) {
+    if (kShare * places >= all) {
       best = {tried.half_step, places, {}};
       break;
     }
