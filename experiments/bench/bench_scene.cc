@@ -20,7 +20,7 @@ namespace {
 // Of ℓ: the way, half of the room's breadth, what stays free at the ends, the thickness of walls.
 constexpr double kWay = 4.0, kHalf = 1.15, kFree = 0.8, kEnd = 0.9, kWall = 0.1;
 constexpr double kBar[] = {0.03, 0.06, 0.09, 0.12, 0.15};        // of ℓ
-constexpr double kGap[] = {1.7, 1.45, 1.25, 1.1, 1.0};           // of the breadth
+constexpr double kGap[] = {1.3, 1.1, 0.95, 0.8, 0.7};            // of the breadth
 constexpr double kBelowTop[] = {-0.05, 0.04, 0.10, 0.17, 0.24};  // of ℓ, below the robot's top
 constexpr int kStations[] = {1, 1, 2, 2, 3};
 
@@ -62,10 +62,11 @@ class Drawing {
   // Texts say exactly what is there.
   void Box(const std::string& name, double x, double y, double bottom, double length, double width,
            double height, double yaw_deg = 0.0) {
+    length = Millimetres(length), width = Millimetres(width), height = Millimetres(height);
     items_ += "  - name: " + name +
               Formatted("\n    box: {size_m: [%.3f, %.3f, %.3f]}\n", length, width, height) +
               Formatted("    pose: {xyz: [%.4f, %.4f, %.4f], rpy_deg: [0, 0, %.1f]}\n", x, y,
-                        bottom + 0.5 * Millimetres(height), yaw_deg);
+                        bottom + 0.5 * height, yaw_deg);
   }
   std::string Numbered(const char* what) { return Formatted("%s %d", what, ++count_); }
 
@@ -139,7 +140,7 @@ class Drawing {
   void Posts(int count) {
     for (int i = 0; i < count; ++i) {
       const auto [x, y] = Anywhere();
-      const double radius = Between(0.04, 0.1) * sizes_.leg;
+      const double radius = Millimetres(Between(0.04, 0.1) * sizes_.leg);
       const double height = Millimetres(Between(0.5, 1.0) * sizes_.height);
       const bool in_door = std::ranges::any_of(doors_, [&, x = x, y = y](const Door& door) {
         return Hypot(x - door.x, y - door.y) < 0.5 * door.gap + 0.6 * sizes_.breadth;

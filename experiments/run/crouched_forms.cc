@@ -25,6 +25,13 @@ double LowestPoint(const Obstacle& obstacle) {
   return BoundsOf(obstacle.shape, obstacle.X_WO).min().z();
 }
 
+std::string Hangs(const Obstacle& obstacle, double needed) {
+  return Quote(obstacle.name) + Formatted(
+                                    " hangs %.3f m above the floor, where half-steps upright "
+                                    "need %.3f m",
+                                    LowestPoint(obstacle), needed);
+}
+
 // In millimetres, as one writes it.
 double CrouchOf(int step, double size) { return std::round(1e3 * step * kCrouchStep * size) / 1e3; }
 
@@ -160,12 +167,7 @@ CrouchedForm Overhead::FormOf(int step) const {
     if (missing <= 0.0 || missing > kCrouchStep * size * step) continue;
     if (lowest == nullptr || LowestPoint(obstacle) < LowestPoint(*lowest)) lowest = &obstacle;
   }
-  if (lowest != nullptr) {
-    best.reason = Quote(lowest->name) + Formatted(
-                                            " hangs %.3g m above the floor, and upright the "
-                                            "robot is %.3g m high",
-                                            LowestPoint(*lowest), top_);
-  }
+  if (lowest != nullptr) best.reason = Hangs(*lowest, top_ + room_);
   return best;
 }
 
@@ -182,8 +184,7 @@ std::vector<CrouchedForm> Overhead::Forms() const {
 std::string HangsTooLow(const Obstacle& obstacle, const RobotModel& robot, double clearance) {
   const double top = StandingBounds(robot).max().z(), low = LowestPoint(obstacle);
   if (low < kAtLeast * top || low >= top + clearance) return "";
-  return Quote(obstacle.name) +
-         Formatted(" hangs %.3g m above the floor, and upright the robot is %.3g m high", low, top);
+  return Hangs(obstacle, top + clearance);
 }
 
 }  // namespace halfstep

@@ -12,7 +12,7 @@ namespace halfstep {
 struct CrouchedForm {
   HalfStepConfig half_step;  ///< lower, and with feet that rise less where legs ask for that
   int places = 0;            ///< of the config's step set that are certified
-  std::string reason;        ///< as "'beam' hangs 1.45 m above the floor, and the robot …"
+  std::string reason;        ///< "'beam' hangs 1.450 m above the floor, where half-steps …"
 };
 
 /// What of a place lies over the walk, so low that the robot does not pass upright, and whether a
@@ -43,8 +43,8 @@ class Overhead {
   std::vector<int> steps_;  // of crouch that help with something, ascending
 };
 
-/// "'beam' hangs 1.45 m above the floor, and the robot stands 1.54 m high", where it is so low, and
-/// begins above the half of the robot; else "".
+/// "'beam' hangs 1.450 m above the floor, where half-steps upright need 1.512 m", where it is so
+/// low and begins above the half of the robot; else "". `clearance` is what they keep [m].
 std::string HangsTooLow(const Obstacle& obstacle, const RobotModel& robot, double clearance);
 
 }  // namespace halfstep

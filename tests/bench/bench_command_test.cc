@@ -16,7 +16,7 @@ using testing::UnorderedElementsAre;
 // A set of few half-steps on coarse cells, straight ahead, as `--set`.
 std::vector<std::string> Coarse(const TemporaryFolder& place, std::vector<std::string> arguments) {
   for (const std::string set :
-       {"step_set={x_min_m: 0, x_max_m: 0.2, y_min_m: -0.21, y_max_m: -0.21, spacing_m: 0.1, "
+       {"step_set={x_min_m: 0, x_max_m: 0.2, y_min_m: -0.31, y_max_m: -0.21, spacing_m: 0.1, "
         "yaws_rad: [0]}",
         "planner.effort=0.05", "planner.improving_effort=0.02"}) {
     arguments.insert(arguments.end(), {"--set", set});

@@ -69,7 +69,10 @@ TEST(BenchScene, HasTheseBytes) {
   // published are of other scenes.
   const BenchSizes sizes{.leg = 0.705, .width = 0.21, .height = 1.54, .breadth = 0.62};
   const std::string text = DrawBenchScene({"below", 1, 1}, sizes, "hrp2").scene;
-  EXPECT_THAT(text, testing::HasSubstr("BYTES"));
+  EXPECT_THAT(text,
+              testing::HasSubstr("  - name: block 4\n    box: {size_m: [0.046, 0.061, 0.019]}\n"
+                                 "    pose: {xyz: [0.9080, 0.5091, 0.0095], rpy_deg: [0, 0, "
+                                 "-57.8]}\n"));
 }
 
 TEST(BenchScene, IsAsHardAsItsDifficultySays) {
@@ -82,14 +85,26 @@ TEST(BenchScene, IsAsHardAsItsDifficultySays) {
         for (int seed = 1; seed <= 4; ++seed) {
           const BenchScene scene = DrawBenchScene({kind, difficulty, seed}, sizes, robot);
           const bool mix = kind == "mix";
-          if (mix || kind == "below") EXPECT_EQ(scene.bar, level.bar);
-          if (mix || kind == "beside") EXPECT_EQ(scene.gap, level.gap);
-          if (mix || kind == "overhead") EXPECT_EQ(scene.headroom, level.headroom);
+          if (mix || kind == "below") {
+            EXPECT_EQ(scene.bar, level.bar);
+          }
+          if (mix || kind == "beside") {
+            EXPECT_EQ(scene.gap, level.gap);
+          }
+          if (mix || kind == "overhead") {
+            EXPECT_EQ(scene.headroom, level.headroom);
+          }
         }
         const BenchScene scene = DrawBenchScene({kind, difficulty, 1}, sizes, robot);
-        if (scene.bar > 0.0) EXPECT_GT(scene.bar, easier.bar);
-        if (std::isfinite(scene.gap)) EXPECT_LT(scene.gap, easier.gap);
-        if (std::isfinite(scene.headroom)) EXPECT_LT(scene.headroom, easier.headroom);
+        if (scene.bar > 0.0) {
+          EXPECT_GT(scene.bar, easier.bar);
+        }
+        if (std::isfinite(scene.gap)) {
+          EXPECT_LT(scene.gap, easier.gap);
+        }
+        if (std::isfinite(scene.headroom)) {
+          EXPECT_LT(scene.headroom, easier.headroom);
+        }
         easier = scene;
       }
     }

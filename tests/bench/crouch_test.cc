@@ -65,7 +65,10 @@ TEST(Crouch, LeadsUnderABeamThatIsTooLowForWhoStands) {
   ASSERT_EQ(low.walk.plan.status, PlanStatus::kSolved) << low.walk.plan.sentence;
   EXPECT_EQ(low.walk.config.half_step.crouch, 0.15);
   EXPECT_THAT(low.walk.changed_half_step, HasSubstr("crouch_m: 0.15"));
-  EXPECT_THAT(low.walk.plan.sentence, HasSubstr("since 'beam' hangs 1.5"));
+  EXPECT_THAT(
+      low.walk.plan.sentence,
+      HasSubstr(
+          "since 'beam' hangs 1.467 m above the floor, where half-steps upright need 1.572 m"));
   EXPECT_TRUE(IsCertified(low.walk.config));
   // The same footsteps upright are not: the beam is what the crouch is for.
   ExperimentConfig upright = low.walk.config;
@@ -84,7 +87,7 @@ TEST(Crouch, DoesNotHelpUnderABeamThatIsFarTooLow) {
   const UnderABeam lower(Height() - 0.3);
   EXPECT_NE(lower.walk.plan.status, PlanStatus::kSolved);
   EXPECT_THAT(lower.walk.plan.sentence, HasSubstr("meet 'beam'; 'beam' hangs 1.2"));
-  EXPECT_THAT(lower.walk.plan.sentence, HasSubstr("upright the robot is 1.5"));
+  EXPECT_THAT(lower.walk.plan.sentence, HasSubstr("where half-steps upright need 1.512 m"));
   EXPECT_THAT(lower.walk.plan.sentence, Not(HasSubstr("half_step: {")));
 }
 
