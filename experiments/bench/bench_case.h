@@ -46,7 +46,7 @@ struct BenchRow {
   std::string status;
   int footsteps = 0;               ///< 0 unless it is solved
   std::optional<double> raw;       ///< of the half-steps one after the other [s]
-  std::optional<double> smoothed;  ///< of the walk by dichotomy [s]
+  std::optional<double> smoothed;  ///< of the walk by the config's last method [s]
   bool certified = false;          ///< that walk, for all t
   double nodes = 0.0;              ///< of the planner
   double effort = 0.0;             ///< counted work of the planner

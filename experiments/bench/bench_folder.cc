@@ -80,7 +80,7 @@ CsvColumns BenchColumns() {
           {"solved", kBoolean, "", "whether certified half-steps lead into the goal"},
           {"footsteps", kInteger, "", "0 unless solved"},
           {"raw_s", kNumber, "s", "duration of the half-steps one after the other"},
-          {"smoothed_s", kNumber, "s", "duration of the walk by dichotomy"},
+          {"smoothed_s", kNumber, "s", "duration of the smoothed walk; empty: none is certified"},
           {"certified", kBoolean, "", "that walk, for all t"},
           {"nodes", kInteger, "", "of the planner"},
           {"effort", kNumber, "", "counted work of the planner; 1 is about a second of one core"},

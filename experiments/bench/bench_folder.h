@@ -47,8 +47,8 @@ void WriteBenchScenes(const BenchSelection& selection, const BenchSizes& sizes,
 /// The numbers of scenes, one row each: name, kind, difficulty, seed, bar_m, gap_m, headroom_m.
 CsvFile BenchScenesCsv(const BenchSelection& selection, const BenchSizes& sizes);
 
-/// The table by kind, difficulty and planner of a bench.csv: how many are solved, and medians of
-/// these.
+/// The table of a bench.csv by kind and difficulty, planners beside each other: how many are
+/// solved, and medians of these.
 std::string BenchTable(const std::string& bench_csv);
 
 }  // namespace halfstep
