@@ -82,6 +82,11 @@ constexpr CommandEntry kEntries[] = {
      "stopped.\n\n"
      "  example: halfstep sweep bar_8cm_speed_clearance --jobs 2",
      DeclareSweep},
+    {"bench",
+     "Scenes of clutter below, beside and overhead, by difficulty and seed, and how planners do "
+     "in\nthem; the same command goes on where it was stopped.\n\n"
+     "  example: halfstep bench --kinds below,overhead --seeds 5 --out runs/bench",
+     DeclareBench},
     {"explain-config",
      "Every key of a config: type, unit, default, range, meaning.\n\n"
      "  example: halfstep explain-config smoothing.margins",

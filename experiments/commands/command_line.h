@@ -79,5 +79,6 @@ CommandAction DeclareRecover(CLI::App* app, const Toolbox& tools);
 CommandAction DeclareRobot(CLI::App* app, const Toolbox& tools);
 CommandAction DeclareScene(CLI::App* app, const Toolbox& tools);
 CommandAction DeclareCheck(CLI::App* app, const Toolbox& tools);
+CommandAction DeclareBench(CLI::App* app, const Toolbox& tools);
 
 }  // namespace halfstep

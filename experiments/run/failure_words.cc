@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "experiments/run/crouched_forms.h"
 #include "experiments/run/stepping_over.h"
 #include "planner/swept/swept_volume_query.h"
 #include "wpg/files/suggestion.h"
@@ -119,6 +120,9 @@ std::string BlockingWords(const WatchedQuery& watched, const SweptVolumes& volum
   if (!blocking->rests()) {
     return text + ", which counts everywhere that it ever is (`planner.moving`)";
   }
+  const std::string hangs =
+      HangsTooLow(*blocking, place.robot, limits.demanded_of(MarginFamily::kClearance));
+  if (!hangs.empty()) return text + "; " + hangs;
   const double top = BoundsOf(blocking->shape, blocking->X_WO).max().z();
   const double lift = volumes.set.prototype.via_height;
   if (top >= lift) {
