@@ -93,11 +93,18 @@ ExitStatus CheckWalks(const CheckCommand& command) {
     const checker::WalkRun walk = checker::ReadWalkRun(run, method, command.robot, command.scene);
     InterruptGuard interrupt;
     std::optional<ProgressBar> bar(std::in_place, "check " + method, command.quiet);
-    checker::TrajectoryCheck check = checker::CheckWalk(
-        walk.tables, walk.robot, walk.scene, walk.certificate, walk.crouch, [&](double done) {
-          bar->Update(done);
-          return !interrupt.token().stop_requested();
-        });
+    checker::TrajectoryCheck check;
+    try {
+      check = checker::CheckWalk(walk.tables, walk.robot, walk.scene, walk.certificate, walk.crouch,
+                                 [&](double done) {
+                                   bar->Update(done);
+                                   return !interrupt.token().stop_requested();
+                                 });
+    } catch (const InputError& error) {
+      std::vector<std::string> told = error.complaints();
+      for (std::string& line : told) line.insert(0, run + ": ");
+      throw InputError(told);
+    }
     bar.reset();
     check.not_covered.insert(check.not_covered.end(), walk.not_covered.begin(),
                              walk.not_covered.end());
