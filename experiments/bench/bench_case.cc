@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <stdexcept>
 
 #include "experiments/bench/bench_footsteps.h"
@@ -11,6 +10,7 @@
 #include "experiments/run/plan_yaml.h"
 #include "experiments/run/planning.h"
 #include "smoothing/proof/certified_feasibility.h"
+#include "wpg/files/input_error.h"
 #include "wpg/files/text.h"
 #include "wpg/nth.h"
 
@@ -134,6 +134,25 @@ std::vector<BenchCase> CasesOf(const BenchSelection& selection) {
     for (const std::string& planner : planners) cases.push_back({key, planner});
   }
   return cases;
+}
+
+void CheckOverrides(const BenchSelection& selection, const BenchSizes& sizes) {
+  for (const YamlOverride& one : selection.overrides) {
+    const std::string group = one.key.substr(0, one.key.find('.'));
+    for (const std::string own : {"name", "robot", "scene", "start", "goal", "footsteps"}) {
+      if (group != own && one.key != "planner.name") continue;
+      throw InputError({"--set " + one.key +
+                        ": is the benchmark's (valid: other keys; --robot and --planners choose)"});
+    }
+  }
+  std::string config = DrawBenchScene(KeysOf(selection).front(), sizes, selection.robot).config;
+  const size_t scene = config.find("\nscene: ") + 1;
+  config.replace(scene, config.find('\n', scene) - scene, "scene: none");
+  for (const std::string& planner : selection.planners) {
+    std::vector<YamlOverride> overrides = selection.overrides;
+    overrides.push_back({"planner.name", planner});
+    ParseConfig("bench.yaml", config, overrides, selection.tools);
+  }
 }
 
 std::optional<BenchRow> DoBenchCase(const BenchSelection& selection, const BenchCase& one,

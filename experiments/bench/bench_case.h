@@ -39,6 +39,10 @@ struct BenchCase {
 /// Scenes times planners, planners quickest.
 std::vector<BenchCase> CasesOf(const BenchSelection& selection);
 
+/// Reads a config as every planner of a selection gets it, so that mistakes of `overrides` are told
+/// before anything is written. Throws InputError, also for keys that the benchmark sets.
+void CheckOverrides(const BenchSelection& selection, const BenchSizes& sizes);
+
 /// What became of a case.
 struct BenchRow {
   /// solved; what PlanStatus has; of footsteps from elsewhere missing, other_start,

@@ -1,9 +1,9 @@
 #include "experiments/bench/bench_footsteps.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 #include <vector>
 
 #include "experiments/config/footsteps_file.h"
@@ -23,9 +23,11 @@ std::string InYaml(const std::string& text) { return nlohmann::json(text).dump()
 
 // The scene's config, but another name of its scene, and without what is planned.
 std::string WithoutGoal(const std::string& config, const std::string& scene) {
-  std::istringstream lines(config);
   std::string text;
-  for (std::string line; std::getline(lines, line);) {
+  for (size_t begin = 0; begin < config.size();) {
+    const size_t end = std::min(config.find('\n', begin), config.size());
+    const std::string line = config.substr(begin, end - begin);
+    begin = end + 1;
     if (line.starts_with("goal:") || line.starts_with("planner:") || line.starts_with('#'))
       continue;
     text += line.starts_with("scene:") ? "scene: " + InYaml(scene) + "\n" : line + "\n";

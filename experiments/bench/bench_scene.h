@@ -44,8 +44,10 @@ struct BenchScene {
   std::string scene;   ///< text of the scene file
   std::string config;  ///< text of the config, without a planner's name; the robot as given
   double bar = 0.0;    ///< top of the highest bar that lies across the room [m]; 0: none does
-  /// Breadth of the narrowest doorway, and height below the lowest beam across [m]; ∞: none.
-  double gap = std::numeric_limits<double>::infinity(), headroom = gap;
+  /// Breadth of the narrowest doorway [m]; ∞: none.
+  double gap = std::numeric_limits<double>::infinity();
+  /// Height below the lowest beam across [m]; ∞: none.
+  double headroom = std::numeric_limits<double>::infinity();
 };
 
 /// The numbers of a difficulty.

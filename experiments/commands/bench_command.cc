@@ -160,6 +160,7 @@ int Bench(BenchCommand command) {
     WriteScenes(command, sizes);
     return kSuccess;
   }
+  CheckOverrides(selection, sizes);
   if (!selection.footsteps.empty()) CheckFootsteps(selection, sizes);
   return RunBench(command, robot);
 }
@@ -179,7 +180,7 @@ CommandAction DeclareBench(CLI::App* app, const Toolbox& tools) {
   app->add_option("--out", command->out,
                   "plan in every scene, smooth and certify; into this folder, or one that is not "
                   "finished");
-  app->add_option("--kinds", selection.kinds, "of clutter (default: all)")
+  app->add_option("--kinds", selection.kinds, "below, beside, overhead, mix (default: all)")
       ->delimiter(',')
       ->check(OneOf(BenchKinds()));
   app->add_option("--difficulties", selection.difficulties, "1 to 5 (default: all)")

@@ -70,6 +70,10 @@ TEST(BenchCommand, SaysWhatIsWrong) {
   EXPECT_THAT(refusal({"--out", "b", "--footsteps", "none"}),
               HasSubstr("--footsteps: 'none': no such folder"));
   EXPECT_THAT(refusal({"--list", "--footsteps", "none"}), HasSubstr("into --out FOLDER"));
+  EXPECT_THAT(refusal({"--out", "b", "--set", "planner.efort=3"}),
+              HasSubstr("--set planner.efort: unknown key (did you mean 'effort'?"));
+  EXPECT_THAT(refusal({"--out", "b", "--set", "robot=wren"}),
+              HasSubstr("--set robot: is the benchmark's (valid: other keys;"));
   EXPECT_TRUE(NamesIn(place.path()).empty());
   WriteText(place / "mine/below_7_001.csv", "foot,x_m,y_m,yaw_rad\nleft,0.1,0.105,0\n");
   EXPECT_THAT(refusal({"--out", "b", "--footsteps", "mine"}),
