@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/run/obstacle_footprint.h"
 #include "experiments/run/stepping_over.h"
 #include "planner/swept/swept_volume_query.h"
 #include "wpg/files/suggestion.h"
@@ -134,7 +135,7 @@ std::string DetourWords(const PlanRequest& request, const PlanResult& plan,
     const Eigen::AlignedBox3d bounds = BoundsOf(obstacle.shape, obstacle.X_WO);
     if (bounds.max().z() >= volumes.set.prototype.via_height) continue;
     if (bounds.sizes().head<2>().minCoeff() > narrow) continue;
-    if (!LiesAcross(obstacle, begin, end)) continue;
+    if (!LiesAcross(FootprintOf(obstacle), begin, end)) continue;
     const std::string over = NoHalfStepOver(obstacle, place.robot, volumes,
                                             limits.demanded_of(MarginFamily::kClearance));
     if (!over.empty()) return over;

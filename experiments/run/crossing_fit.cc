@@ -1,0 +1,113 @@
+#include "experiments/run/crossing_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "smoothing/proof/sampled_feasibility.h"
+#include "wpg/nth.h"
+
+namespace halfstep {
+namespace {
+
+constexpr double kWorst = 5.0;  // slacks below are as bad
+
+bool Rises(const HalfStepConfig& form, const Crossing& crossing) {
+  return std::abs(crossing.rise()) < form.via_height;
+}
+
+}  // namespace
+
+CrossingFit::CrossingFit(const ExperimentConfig& config, const RobotModel& robot,
+                         const Scene& scene, std::vector<Crossing> crossings)
+    : evaluator_(robot, scene, config.smoothing.limits),
+      scratch_(evaluator_.MakeScratch()),
+      crossings_(std::move(crossings)) {}
+
+double CrossingFit::Highest() const {
+  double highest = 0.0;
+  for (const Crossing& crossing : crossings_) {
+    highest = std::max(highest, std::abs(crossing.rise()));
+  }
+  return highest;
+}
+
+void CrossingFit::Drop(int kind) {
+  std::erase_if(crossings_, [kind](const Crossing& crossing) { return crossing.kind == kind; });
+}
+
+std::map<int, CrossingFit::OfKind> CrossingFit::Fit(const HalfStepConfig& form) {
+  std::map<int, int> all, kept;
+  for (const Crossing& crossing : crossings_) ++all[crossing.kind];
+  std::map<int, OfKind> fits;
+  for (const Crossing& crossing : crossings_) {
+    double& fit = fits[crossing.kind].fit;
+    if (fit < 1.0 && Keeps(form, crossing)) {
+      fit = std::min(1.0, 10.0 * ++kept[crossing.kind] / all[crossing.kind]);
+    }
+  }
+  return fits;
+}
+
+CrossingFit::OfKind CrossingFit::Nearest(const HalfStepConfig& form, int kind) {
+  constexpr int kLooked = 16;
+  OfKind best{.fit = -kWorst};
+  int looked = 0;
+  for (const Crossing& crossing : crossings_) {
+    if (crossing.kind != kind || looked == kLooked) continue;
+    ++looked;
+    if (!Rises(form, crossing)) continue;
+    const auto [slack, margin] = SlackOf(form, crossing);
+    if (best.of == nullptr || slack > best.fit) best = {slack, margin, &crossing};
+  }
+  return best;
+}
+
+void CrossingFit::Visit(
+    const HalfStepConfig& form, const Crossing& crossing,
+    const std::function<bool(const SuperposedWalk&, const LocalTime&)>& goes_on) {
+  std::array<Foothold, 2> feet;
+  Nth(feet, Index(crossing.support)) = crossing.X_WS;
+  Nth(feet, Index(Opposite(crossing.support))) = crossing.X_WF;
+  const HalfStepShape shape = ShapeOf(form);
+  const auto model = MotionModelOf(evaluator_.robot(), shape);
+  // A step in place moves down as it moves up, in reverse.
+  for (const Side swing : {crossing.support, Opposite(crossing.support)}) {
+    const HalfStepSequence sequence = MakeSequence(feet,
+                                                   {{.side = swing,
+                                                     .X_WF = Nth(feet, Index(swing)),
+                                                     .via_height = form.via_height,
+                                                     .duration = form.duration}},
+                                                   form.via_lateral, shape, model);
+    const SuperposedWalk walk(sequence, PlannedMotion(sequence));
+    constexpr int kInstants = 10;
+    for (int k = 0; k <= kInstants; ++k) {
+      if (!goes_on(walk, walk.Locate(form.duration * k / kInstants))) return;
+    }
+  }
+}
+
+bool CrossingFit::Keeps(const HalfStepConfig& form, const Crossing& crossing) {
+  bool keeps = Rises(form, crossing);
+  if (!keeps) return false;
+  Visit(form, crossing, [&](const SuperposedWalk& walk, const LocalTime& at) {
+    keeps = !evaluator_.FirstViolation(walk, at, &scratch_);
+    return keeps;
+  });
+  return keeps;
+}
+
+std::pair<double, Margin> CrossingFit::SlackOf(const HalfStepConfig& form,
+                                               const Crossing& crossing) {
+  std::pair<double, Margin> least = {1.0, {}};
+  Visit(form, crossing, [&](const SuperposedWalk& walk, const LocalTime& at) {
+    const MarginSet margins = evaluator_.At(walk, at, &scratch_);
+    const Margin& worst = WorstOf(margins, evaluator_.limits());
+    const double slack = std::max(-kWorst, evaluator_.limits().Slack(worst));
+    if (slack < least.first) least = {slack, worst};
+    return true;
+  });
+  return least;
+}
+
+}  // namespace halfstep

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "experiments/config/experiment.h"
+#include "experiments/run/crossing.h"
+#include "planner/scene/scene.h"
+
+namespace halfstep {
+
+/// Stances astride an obstacle that rests on a flat floor, at the middle of its narrower side
+/// (FootprintOf), drawn from the config's seed: pairs of soles of the config's step set, turned any
+/// way, of which one stands before the obstacle and one behind, both off it as `clearance` demands.
+/// 96 of them, fewer where 20,000 tries find no more; none: the obstacle is too deep for the set.
+std::vector<Crossing> DrawObstacleCrossings(const ExperimentConfig& config,
+                                            const RobotModel& robot, const Obstacle& obstacle);
+
+}  // namespace halfstep
