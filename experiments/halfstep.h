@@ -9,6 +9,8 @@
 #include "experiments/run/smoothing_of.h"
 #include "opt/adapters/function_solver.h"
 #include "opt/adapters/solver_registry.h"
+#include "planner/ground/level_ground.h"
+#include "planner/ground/stairs.h"
 #include "planner/search/planners.h"
 #include "smoothing/margins/own_margin.h"
 #include "smoothing/methods/dichotomy.h"

@@ -6,7 +6,7 @@
   survival.py HALFSTEP --levels RUN… > levels_survival.csv   the same of `dichotomy` and `halfstep/sqp`
                                                      over levels, on LEVELS, all with seeds
   survival.py --tables survival.csv                  the tables of measurements.md and
-                                                     experiments/README.md
+                                                     experiments/replay.md
 
 A row is a walk on one of ROBOTS, open loop and controlled: once undisturbed (tilt, how far soles,
 waist and joints are from the plan: what 95 % of the time does not exceed, and the largest), and

@@ -55,6 +55,11 @@ constexpr CommandEntry kEntries[] = {
      "Make a scene file of what other programs have: MoveIt, URDF, SDF, meshes, clouds, maps.\n\n"
      "  example: halfstep scene room.world --models models --out room.yaml",
      DeclareScene},
+    {"check",
+     "Prove of anybody's joint trajectory that it keeps limits and clearances between its "
+     "knots.\n\n"
+     "  example: halfstep check arm.csv --robot arm.urdf --scene table.yaml --clearance 0.01",
+     DeclareCheck},
     {"verify",
      "Check a run's certificates independently: played motion, forward kinematics, distances\n"
      "of its own; none of the code that smoothed. Exit status 3 when it disagrees, 4 when the\n"

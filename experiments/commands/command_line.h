@@ -70,5 +70,6 @@ CommandAction DeclareLive(CLI::App* app, const Toolbox& tools);
 CommandAction DeclareRecover(CLI::App* app, const Toolbox& tools);
 CommandAction DeclareRobot(CLI::App* app, const Toolbox& tools);
 CommandAction DeclareScene(CLI::App* app, const Toolbox& tools);
+CommandAction DeclareCheck(CLI::App* app, const Toolbox& tools);
 
 }  // namespace halfstep

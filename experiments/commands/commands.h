@@ -1,9 +1,11 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "experiments/checker/check_trajectory.h"
 #include "experiments/config/toolbox.h"
 #include "experiments/export/whole_trajectory.h"
 #include "experiments/replay/simulated_robot.h"
@@ -97,6 +99,20 @@ struct SceneCommand {
 /// file has which a scene can name. Throws InputError for what cannot be read; then nothing is
 /// written.
 ExitStatus ConvertScene(const SceneCommand& command);
+
+struct CheckCommand {
+  std::string trajectory;  ///< anybody's, of joints
+  std::string robot;       ///< URDF, robot file or shipped robot's name
+  std::string scene;       ///< file or shipped scene's name; "": no obstacles
+  std::optional<checker::Interpolation> interpolation = {};  ///< none: by what the file has
+  checker::TrajectoryDemands demands;                        ///< what is asked
+  std::map<std::string, std::string> packages = {};          ///< of package:// names
+  bool quiet = false, json = false;
+};
+
+/// `halfstep check`: whether a trajectory keeps what is asked at every time between its knots
+/// (CheckTrajectory). kFailed where that is not proved. Writes no file. Throws InputError.
+ExitStatus CheckMotion(const CheckCommand& command);
 
 struct SmoothCommand {
   RunCommand run;                    ///< `config` may be a run folder too; then its config.yaml

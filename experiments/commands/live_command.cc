@@ -277,7 +277,9 @@ CommandAction DeclareLive(CLI::App* app, const Toolbox& tools) {
   const auto command = std::make_shared<LiveCommand>();
   command->run.tools = tools;
   const auto sets = std::make_shared<std::vector<std::string>>();
-  app->add_option("CONFIG", command->run.config, "episode, a YAML file with `live`")->required();
+  app->add_option("CONFIG", command->run.config,
+                  "episode, a YAML file with `live`, or a shipped one's name")
+      ->required();
   DeclareOverrides(app, "the config", sets.get());
   app->add_option("--out", command->run.out, "folder (default: output.directory, or runs/NAME)");
   CLI::Option* const view =

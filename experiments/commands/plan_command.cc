@@ -76,6 +76,8 @@ void PrintPlan(const PlannedWalk& walk) {
       f.Number("y_m", &step->X_WF.y, {});
       f.Number("yaw_deg", &step->X_WF.yaw, {});
       if (walk.on_levels) f.OptionalNumber("z_m", &step->on.z, {});
+      f.OptionalNumber("rest_s", &step->rest, {.none_left_out = true});
+      f.OptionalNumber("rest_on_one_foot_s", &step->rest_on_one_foot, {.none_left_out = true});
     });
   });
 }
@@ -175,7 +177,8 @@ CommandAction DeclarePlanning(CLI::App* app, const Toolbox& tools,
   const auto command = std::make_shared<PlanCommand>();
   command->tools = tools;
   const auto sets = std::make_shared<std::vector<std::string>>();
-  app->add_option("CONFIG", command->config, "experiment, a YAML file")->required();
+  app->add_option("CONFIG", command->config, "experiment, a YAML file or a shipped one's name")
+      ->required();
   DeclareOverrides(app, "the config", sets.get());
   app->add_flag("--quiet", command->quiet, "print nothing but errors");
   app->add_flag("--json", command->json, "print JSON");

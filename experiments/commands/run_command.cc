@@ -147,7 +147,8 @@ CommandAction DeclareRun(CLI::App* app, const Toolbox& tools) {
   const auto command = std::make_shared<RunCommand>();
   command->tools = tools;
   const auto sets = std::make_shared<std::vector<std::string>>();
-  app->add_option("CONFIG", command->config, "experiment, a YAML file")->required();
+  app->add_option("CONFIG", command->config, "experiment, a YAML file or a shipped one's name")
+      ->required();
   DeclareOverrides(app, "the config", sets.get());
   app->add_option("--out", command->out, "run folder (default: output.directory, or runs/NAME)");
   DeclareRunFlags(app, command.get());

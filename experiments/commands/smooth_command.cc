@@ -79,7 +79,8 @@ CommandAction DeclareSmooth(CLI::App* app, const Toolbox& tools) {
   const auto command = std::make_shared<SmoothCommand>();
   command->run.tools = tools;
   const auto sets = std::make_shared<std::vector<std::string>>();
-  app->add_option("CONFIG", command->run.config, "config with footsteps, or a run folder")
+  app->add_option("CONFIG", command->run.config,
+                  "config with footsteps, a shipped one's name, or a run folder")
       ->required();
   app->add_option("--method", command->methods, "in place of smoothing.methods; repeatable")
       ->allow_extra_args(false);

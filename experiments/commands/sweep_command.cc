@@ -200,7 +200,8 @@ CommandAction DeclareSweep(CLI::App* app, const Toolbox& tools) {
   command->tools = tools;
   const auto sets = std::make_shared<std::vector<std::string>>();
   command->jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  app->add_option("SWEEP", command->sweep, "sweep, a YAML file")->required();
+  app->add_option("SWEEP", command->sweep, "sweep, a YAML file or a shipped one's name")
+      ->required();
   DeclareOverrides(app, "the sweep file", sets.get());
   app->add_option("--out", command->out, "folder (default: sweeps/NAME)");
   app->add_option("--jobs", command->jobs, "cases at a time (default: as many as cores)")

@@ -10,7 +10,7 @@ namespace halfstep {
 
 /// Columns of comparison.csv; with gap_lipm where a run knows a bound.
 CsvColumns ComparisonColumns(bool with_bound);
-/// Each table of a comparison; columns: experiments/README.md.
+/// Each table of a comparison; columns: experiments/files.md.
 CsvFile ComparisonCsv(const Comparison& comparison);
 /// The staircases of PerformanceProfiles().
 CsvFile PerformanceProfileCsv(const Comparison& comparison);

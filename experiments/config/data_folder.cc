@@ -7,6 +7,7 @@
 #include <optional>
 #include <system_error>
 
+#include "wpg/files/input_error.h"
 #include "wpg/files/suggestion.h"
 #include "wpg/files/text.h"
 
@@ -45,6 +46,14 @@ fs::path Within(const std::string& folder) {
   return error ? path : real;
 }
 
+bool IsName(const fs::path& given) { return !given.has_parent_path() && !given.has_extension(); }
+
+std::vector<std::string> NamesIn(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const fs::path& path : YamlFiles(folder)) names.push_back(path.stem().string());
+  return names;
+}
+
 }  // namespace
 
 fs::path DataFolder() {
@@ -76,13 +85,28 @@ std::vector<fs::path> YamlFiles(const fs::path& folder) {
   return files;
 }
 
+fs::path ShippedOr(const fs::path& given, const std::string& folder) {
+  std::error_code ignored;
+  if (!IsName(given) || fs::exists(given, ignored)) return given;
+  const fs::path shipped = Within(folder) / (given.string() + ".yaml");
+  return fs::is_regular_file(shipped, ignored) ? shipped : given;
+}
+
+fs::path FileOrShipped(const std::string& given, const std::string& folder) {
+  const fs::path found = ShippedOr(given, folder);
+  std::error_code ignored;
+  if (!IsName(found) || fs::exists(found, ignored)) return found;
+  const std::vector<std::string> names = NamesIn(Within(folder));
+  throw InputError({given + ": no such file (" + DidYouMean(given, names) + "valid: a path, or " +
+                    Joined(names) + ")"});
+}
+
 std::string UnknownRobot(const std::string& robot) {
   if (robot.ends_with(".urdf")) {
     return "no such file: " + Quote(robot) +
            " (valid: a robot file; `halfstep robot URDF` makes one of a URDF)";
   }
-  std::vector<std::string> names;
-  for (const fs::path& path : YamlFiles(RobotsFolder())) names.push_back(path.stem().string());
+  const std::vector<std::string> names = NamesIn(RobotsFolder());
   return "no such robot: " + Quote(robot) + " (" + DidYouMean(robot, names) +
          "valid: " + Joined(names) + ", or the path of a robot file)";
 }

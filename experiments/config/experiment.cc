@@ -87,7 +87,11 @@ fs::path RobotPath(const ExperimentConfig& config) {
 
 std::optional<fs::path> ScenePath(const ExperimentConfig& config) {
   if (config.scene == "none") return std::nullopt;
-  return (fs::path(config.directory) / config.scene).lexically_normal();
+  const fs::path path = (fs::path(config.directory) / config.scene).lexically_normal();
+  std::error_code ignored;
+  if (fs::exists(path, ignored)) return path;
+  const fs::path shipped = ShippedOr(config.scene, "scenes");
+  return shipped == config.scene ? path : shipped;
 }
 
 GivenWalkFiles GivenPaths(const ExperimentConfig& config) {
@@ -198,7 +202,9 @@ std::vector<Footstep> FootstepsOf(const ExperimentConfig& config, const RobotMod
     footsteps.push_back({.side = step.foot == "left" ? Side::kLeft : Side::kRight,
                          .X_WF = OnGround(ground, robot, step.X_WF, who, step.on),
                          .via_height = step.via_height.value_or(config.half_step.via_height),
-                         .duration = step.duration.value_or(config.half_step.duration)});
+                         .duration = step.duration.value_or(config.half_step.duration),
+                         .rest = step.rest.value_or(0.0),
+                         .rest_on_one_foot = step.rest_on_one_foot.value_or(0.0)});
   }
   return footsteps;
 }

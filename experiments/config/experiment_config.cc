@@ -13,6 +13,7 @@
 #include "experiments/config/footsteps_key.h"
 #include "experiments/config/scaled_defaults.h"
 #include "smoothing/margins/family_traits.h"
+#include "smoothing/walk/homotopy_parameters.h"
 #include "wpg/elementary.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/text.h"
@@ -57,6 +58,19 @@ void DeclareFootstep(Fields& fields, FootstepConfig* step) {
   fields.OptionalNumber(
       "duration_s", &step->duration,
       {.meaning = "instead of half_step.duration_s", .unit = "s", .min = 0.6, .max = 6});
+  fields.OptionalNumber("rest_s", &step->rest,
+                        {.meaning = "how long the robot rests on both feet before the step; not of "
+                                    "the first one, with which the walk begins",
+                         .unit = "s",
+                         .min = 0,
+                         .max = kLongestRest,
+                         .none_left_out = true});
+  fields.OptionalNumber("rest_on_one_foot_s", &step->rest_on_one_foot,
+                        {.meaning = "how long it rests on one foot before the other lands",
+                         .unit = "s",
+                         .min = 0,
+                         .max = kLongestRest,
+                         .none_left_out = true});
 }
 
 // The yaw nearest to `beside` that is the same place of a sole as `yaw` [rad].
@@ -123,7 +137,8 @@ std::string ComplaintAboutFixed(const ExperimentConfig& config) {
     HalfStep half_step;
     half_step.duration = footstep.duration.value_or(config.half_step.duration);
     half_step.shape = ShapeOf(config.half_step);
-    sequence.half_steps.insert(sequence.half_steps.end(), 2, {half_step, {}});
+    sequence.half_steps.push_back({half_step, {}, footstep.rest.value_or(0.0)});
+    sequence.half_steps.push_back({half_step, {}, footstep.rest_on_one_foot.value_or(0.0)});
   }
   return ComplaintAbout(sequence, FixedParameters(config.smoothing));
 }
@@ -163,7 +178,14 @@ void DeclareWay(Fields& fields, ExperimentConfig* c) {
   fields.List("footsteps",
               {.meaning = "in the order of stepping, at least one unless there is a `goal`",
                .max_items = 10000},
-              &c->footsteps, [&](Fields& f, FootstepConfig* step) { jumps.Declare(f, step); });
+              &c->footsteps, [&](Fields& f, FootstepConfig* step) {
+                jumps.Declare(f, step);
+                if (step == c->footsteps.data() && step->rest.value_or(0.0) > 0.0) {
+                  f.Complain("rest_s",
+                             "of the first footstep, with which the walk begins (valid: "
+                             "rest_on_one_foot_s, or footsteps from the second on)");
+                }
+              });
   const bool in_file = DeclareFootstepsFile(fields, c);
   if (!in_file && c->footsteps.empty() && !c->has_goal) {
     fields.Complain("footsteps", "there are none (valid: at least one, or a `goal`)");
@@ -200,7 +222,8 @@ void DeclareFields(Fields& fields, ExperimentConfig* c) {
   // Whatever is wrong with the robot is told when it is loaded.
   if (!c->robot.empty() && !fields.Keys().empty()) ScaleDefaultsForRobot(fields.directory(), c);
   fields.Text("scene", &c->scene,
-              {.meaning = "path of a scene file, or `none`: an empty floor", .required = true});
+              {.meaning = "path of a scene file, a shipped scene's name, or `none`: an empty floor",
+               .required = true});
   DeclareStart(fields, c);
   DeclareWay(fields, c);
   fields.Group("planner", {.meaning = "of the way to the goal"},
@@ -238,9 +261,9 @@ void DeclareFilesThere(Fields& fields, const ExperimentConfig& config) {
   }
   const std::optional<std::filesystem::path> scene = ScenePath(config);
   if (scene && !std::filesystem::is_regular_file(*scene, ignored)) {
-    fields.Complain("scene", "no such file: " + Quote(scene->string()) + " (" +
-                                 NearestFile(*scene) +
-                                 "valid: `none`, or a path relative to this file)");
+    fields.Complain("scene",
+                    "no such file: " + Quote(scene->string()) + " (" + NearestFile(*scene) +
+                        "valid: `none`, a path relative to this file, or a shipped scene's name)");
   }
 }
 
@@ -256,7 +279,8 @@ std::vector<KeyDescription> ConfigKeys(Toolbox tools) {
 
 ExperimentConfig LoadConfig(const std::string& path, const std::vector<YamlOverride>& overrides,
                             Toolbox tools) {
-  return ParseConfig(path, ReadYamlFile(path), overrides, std::move(tools));
+  const std::string file = FileOrShipped(path, "configs").string();
+  return ParseConfig(file, ReadYamlFile(file), overrides, std::move(tools));
 }
 
 ExperimentConfig ParseConfig(const std::string& path, const std::string& text,

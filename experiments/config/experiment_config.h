@@ -27,14 +27,16 @@ struct LevelChoice {
 /// One footstep of a config: a sole's place in the world, and what differs from `half_step`.
 /// Its height follows from the ground (StartOf, FootstepsOf).
 struct FootstepConfig {
-  std::string foot = "left";         ///< "left" or "right"
-  Pose2 X_WF;                        ///< the sole's place in W, seen from above
-  std::optional<double> via_height;  ///< [m]
-  std::optional<double> duration;    ///< [s]
-  LevelChoice on = {};               ///< the level
+  std::string foot = "left";                    ///< "left" or "right"
+  Pose2 X_WF;                                   ///< the sole's place in W, seen from above
+  std::optional<double> via_height;             ///< [m]
+  std::optional<double> duration;               ///< [s]
+  LevelChoice on = {};                          ///< the level
+  std::optional<double> rest = {};              ///< Footstep::rest [s]; none: 0
+  std::optional<double> rest_on_one_foot = {};  ///< Footstep::rest_on_one_foot [s]; none: 0
 };
 
-/// An experiment as its YAML file says it (top keys: experiments/README.md). Paths are as written.
+/// An experiment as its YAML file says it (top keys: experiments/config.md). Paths are as written.
 struct ExperimentConfig {
   std::string name;   ///< default: the file's stem
   std::string robot;  ///< a shipped robot's name or a path

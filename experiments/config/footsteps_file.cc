@@ -54,6 +54,7 @@ constexpr Range kPlaceRange = {-kFarthest, kFarthest, "-1000 … 1000 m"};
 constexpr Range kYawRange = {-kMostTurn, kMostTurn, "-3600 … 3600°"};
 constexpr Range kHeightRange = {0.01, 1.0, "0.01 … 1 m"};
 constexpr Range kDurationRange = {0.6, 6.0, "0.6 … 6 s"};
+constexpr Range kRestRange = {0.0, 3600.0, "0 … 3600 s"};
 
 /// Reads a table of footsteps.
 class FootstepTable {
@@ -92,9 +93,10 @@ class FootstepTable {
   }
 
   void ReadHeader(const std::vector<Cell>& cells) {
-    static const std::vector<std::string> kNames = {"footstep", "foot",         "x_m",
-                                                    "y_m",      "z_m",          "yaw_rad",
-                                                    "yaw_deg",  "via_height_m", "duration_s"};
+    static const std::vector<std::string> kNames = {
+        "footstep",          "foot",    "x_m",          "y_m",        "z_m",
+        "yaw_rad",           "yaw_deg", "via_height_m", "duration_s", "rest_s",
+        "rest_on_one_foot_s"};
     width_ = cells.size();
     for (size_t i = 0; i < cells.size(); ++i) {
       if (!columns_.emplace(cells[i].text, i).second) {
@@ -151,6 +153,12 @@ class FootstepTable {
     }
     step.via_height = Number(cells, "via_height_m", kHeightRange);
     step.duration = Number(cells, "duration_s", kDurationRange);
+    step.rest = Number(cells, "rest_s", kRestRange);
+    step.rest_on_one_foot = Number(cells, "rest_on_one_foot_s", kRestRange);
+    if (read_.steps.empty() && step.rest.value_or(0.0) > 0.0) {
+      Complain(cells[columns_["rest_s"]].column, "rest_s",
+               "of the first footstep, with which the walk begins (valid: 0 there)");
+    }
     read_.steps.push_back(step);
     if (read_.steps.size() > kMostFootsteps) Complain(1, "footstep", "more than 10000 footsteps");
   }
@@ -162,7 +170,8 @@ class FootstepTable {
     const auto found = columns_.find(name);
     if (found == columns_.end()) return std::nullopt;
     const Cell& cell = cells[found->second];
-    const bool may_be_empty = name == "z_m" || name == "via_height_m" || name == "duration_s";
+    const bool may_be_empty = name == "z_m" || name == "via_height_m" || name == "duration_s" ||
+                              name == "rest_s" || name == "rest_on_one_foot_s";
     if (cell.text.empty() && may_be_empty) return std::nullopt;
     const NumberText number = ParseNumber(cell.text);
     if (number.kind != NumberText::Kind::kNumber) {

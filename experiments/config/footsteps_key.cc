@@ -45,8 +45,13 @@ void ReadFootstepsFile(const FootstepsFileConfig& file, const std::string& path,
     }
   }
   for (const FiledFootstep& step : read.steps) {
-    c->footsteps.push_back(
-        {std::string(Name(step.foot)), step.X_WF, step.via_height, step.duration, {{}, step.z}});
+    c->footsteps.push_back({std::string(Name(step.foot)),
+                            step.X_WF,
+                            step.via_height,
+                            step.duration,
+                            {{}, step.z},
+                            step.rest,
+                            step.rest_on_one_foot});
   }
 }
 

@@ -17,7 +17,7 @@ std::string RangeText(const KeyDescription& key);
 std::string KeyScreen(const std::vector<KeyDescription>& keys);
 /// A row of a Markdown table: path, type, default, valid values, meaning.
 std::string KeyRow(const KeyDescription& key);
-/// That table of keys, maps before the keys in them: the tables of experiments/README.md.
+/// That table of keys, maps before the keys in them: the tables of experiments/config.md.
 std::string KeyMarkdown(const std::vector<KeyDescription>& keys);
 /// A JSON schema (draft 7) of a file with these keys. It accepts every file that can be read, but
 /// cannot express conditions on several keys.

@@ -74,17 +74,18 @@ GoalRegion GoalConfig::Region() const {
   return region;
 }
 
-StepCost PlannerConfig::Cost() const {
+StepCost PlannerConfig::Cost(bool in_time) const {
   StepCost step_cost = estimate;
   for (const NamedCost& row : kCosts) {
-    if (CostName() == row.name) step_cost.kind = row.kind;
+    if (CostName(in_time) == row.name) step_cost.kind = row.kind;
   }
   return step_cost;
 }
 
-std::string PlannerConfig::CostName() const {
+std::string PlannerConfig::CostName(bool in_time) const {
   if (!cost.empty()) return cost;
-  return name == kBest ? "smoothed_duration" : "steps";
+  if (name != kBest) return "steps";
+  return in_time ? "raw_duration" : "smoothed_duration";
 }
 
 Termination PlannerConfig::Enough() const {
@@ -147,14 +148,21 @@ void DeclarePlanner(Fields& fields, PlannerConfig* c) {
                .choices = c->known.Names(),
                .listed_by = "halfstep list planners"});
   fields.Text("cost", &c->cost,
-              {.meaning = "of a plan; the last is an estimate",
+              {.meaning = "of a plan; the last is an estimate, which plans in time cannot have",
                .choices = NamesOf(kCosts),
-               .otherwise = "smoothed_duration of `best`, else steps",
+               .otherwise = "of `best` smoothed_duration, in time raw_duration; else steps",
                .left_out_empty = true});
-  fields.Text("free_by", &c->free_by,
-              {.meaning = "what says that a half-step is free: baked volumes, or its proof",
-               .choices = {"volumes", "certificates"},
-               .otherwise = "certificates on levels where nothing moves, else volumes",
+  fields.Text(
+      "free_by", &c->free_by,
+      {.meaning = "what says that a half-step is free: baked volumes, or its proof",
+       .choices = {"volumes", "certificates"},
+       .otherwise = "certificates on levels where nothing moves or planned in time, else volumes",
+       .left_out_empty = true});
+  fields.Text("moving", &c->moving,
+              {.meaning = "where obstacles that move count: where they are at the time, or "
+                          "everywhere that they ever are",
+               .choices = {"in_time", "everywhere"},
+               .otherwise = "in_time where the planner can",
                .left_out_empty = true});
   fields.Integer("max_nodes", &c->max_nodes,
                  {.meaning = "the search ends after them", .min = 0, .max = 1000000000});

@@ -29,6 +29,7 @@ struct PlannerConfig {
   std::string name = "best";  ///< one of known.Names()
   std::string cost = {};      ///< a name of CostKind; "": as `name` wants it
   std::string free_by = {};   ///< volumes or certificates; "": as the ground wants it
+  std::string moving = {};    ///< in_time or everywhere; "": as the planner can
   StepCost estimate;          ///< its numbers; Cost() sets its kind by `cost`
   int max_nodes = 100000;     ///< ends the search
   /// Ends after these without a better plan; 0: at the first plan; none: as `name` wants it.
@@ -41,9 +42,9 @@ struct PlannerConfig {
   PlannerOptions options;         ///< of the planner by that name
   Planners known = Planners::Standard();  ///< those that `name` may name
 
-  /// The cost that plans are compared by, and its name.
-  StepCost Cost() const;
-  std::string CostName() const;
+  /// The cost that plans are compared by, and its name; `in_time`: of plans in time.
+  StepCost Cost(bool in_time = false) const;
+  std::string CostName(bool in_time = false) const;
   /// When a plan is good enough.
   Termination Enough() const;
 };

@@ -8,7 +8,7 @@
 namespace halfstep {
 
 /// The group `replay`: on what simulated robots `halfstep run` plays each certified walk.
-/// Documented in experiments/README.md, "Replay".
+/// Documented in experiments/replay.md, "Replay".
 struct ReplayConfig {
   int seeds = 8;               ///< simulations, each of which draws what is not known of a robot
   std::vector<double> servos;  ///< K [N m/rad], D [N m s/rad]; empty: those of the robot's size

@@ -20,7 +20,7 @@ constexpr double kSoleWidth = 0.137;  // of its soles, the shorter side [m]
 constexpr double kSpacing = 0.05;     // of its step set [m]
 constexpr double kDuration = 2.0;     // of its half-steps, T [s]
 // A leg joint's speed in a half-step over the highest bar of the shipped scenes is at most this
-// over T [rad]: notebooks-data/measurements.md, "Defaults that go by the robot".
+// over T [rad]: experiments/config.md, "Defaults that go by the robot".
 constexpr double kTurn = 6.8;
 constexpr double kViaHeight = 0.25;  // of HRP-2's half-steps [m]
 constexpr double kRise = 6e-3;    // of a foot before it moves ahead: more than the floor margin [m]

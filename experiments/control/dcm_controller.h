@@ -10,7 +10,7 @@
 namespace halfstep::control {
 
 /// What DcmController goes by: what is known of the robot, and times and shares, so that gains go
-/// by the robot's size, mass and servos. Measured: experiments/README.md, "Tracking controllers".
+/// by the robot's size, mass and servos. Measured: experiments/replay.md, "Tracking controllers".
 struct DcmOptions {
   /// Of its servos, as its maker states it [N m/rad]; ∞: not known, then nothing is fed forward and
   /// ankles give way as those of stiff servos have to. Too large: they give way too slowly.
@@ -46,7 +46,7 @@ struct DcmOptions {
 /// ξ = c + ċ/ω asks for a ZMP within the soles, the feet share it, ankles and legs give way until
 /// the soles' loads are what was asked for. A foot that meets the floor early or late stays there
 /// or goes on down. Footsteps and their times are the plan's. Source: [Englsberger2015] §III,
-/// [Kajita2010] §III, [Caron2019] §III; experiments/README.md, "Tracking controllers".
+/// [Kajita2010] §III, [Caron2019] §III; experiments/replay.md, "Tracking controllers".
 class DcmController final : public TrackingController {
  public:
   /// Borrows `robot`. Precondition: robot.masses.known().

@@ -25,7 +25,7 @@ struct EstimatedState {
 /// a point that rests even when the sole rocks on an edge, is where the planned sole has it, and
 /// the yaw is such that the sole's is the planned one; two soles count by their forces. Where
 /// nothing carries, the waist is where it is planned. `bushes`: as they are turned then.
-/// Precondition: robot.masses.known(). Source: [Caron2019] §III, experiments/README.md, "Tracking
+/// Precondition: robot.masses.known(). Source: [Caron2019] §III, experiments/replay.md, "Tracking
 /// controllers".
 EstimatedState EstimateState(const RobotModel& robot, const MeasuredState& measured,
                              const PlannedState& then, const std::array<AnkleBush, 2>& bushes);

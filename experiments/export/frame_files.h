@@ -26,7 +26,7 @@ struct FrameFileOptions {
   bool all_links = false;   ///< of mjlab and json: see BodyMotion::Order
 };
 
-/// The bytes of a file of that format (experiments/README.md, "Export"). `path` stands for it in
+/// The bytes of a file of that format (experiments/files.md, "Export"). `path` stands for it in
 /// complaints. Throws InputError for archives of 4 GiB or more. Source: [BeyondMimic], [Lafan1].
 std::string FrameFile(const FrameFormat& format, const BodyMotion& motion,
                       const std::vector<BodyFrame>& frames, const FrameFileOptions& options,

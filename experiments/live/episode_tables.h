@@ -29,7 +29,8 @@ struct EpisodeProgress {
 };
 
 /// The tables of an episode, with the rows of what `written` does not have yet; columns:
-/// experiments/README.md, "Episodes". A row refers to rows of tables that come before its own.
+/// experiments/episodes.md, "The folder of an episode". A row refers to rows of tables that come
+/// before its own.
 std::vector<EpisodeTable> EpisodeTables(const Episode& episode, const EpisodeProgress& written);
 
 /// The tables of its walk with this index: "walks/007/footsteps", half_steps, overlaps.

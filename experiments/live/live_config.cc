@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 
+#include "experiments/config/data_folder.h"
 #include "experiments/config/scaled_defaults.h"
 #include "planner/search/step_set.h"
 #include "wpg/files/text.h"
@@ -264,7 +265,8 @@ std::vector<KeyDescription> EpisodeKeys(Toolbox tools) {
 
 LiveConfig LoadLiveConfig(const std::string& path, const std::vector<YamlOverride>& overrides,
                           Toolbox tools) {
-  return ParseLiveConfig(path, ReadYamlFile(path), overrides, nullptr, std::move(tools));
+  const std::string file = FileOrShipped(path, "episodes").string();
+  return ParseLiveConfig(file, ReadYamlFile(file), overrides, nullptr, std::move(tools));
 }
 
 LiveConfig ParseLiveConfig(const std::string& path, const std::string& text,

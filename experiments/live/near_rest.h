@@ -16,7 +16,7 @@ bool BeginsAtRest(const SuperposedWalk& walk, int half_step);
 /// half-step from there begins by violating the demand, so from these obstacles it keeps less:
 /// the margin that there is when it begins, less 1 mm, and at least 0, so that none is touched as
 /// long as it keeps to r and v. From all other obstacles it keeps what is demanded.
-/// Source: experiments/README.md, "A half-step that draws away".
+/// Source: experiments/episodes.md, "A half-step that draws away".
 class NearRest {
  public:
   /// For half-step `half_step` of a walk among the obstacles of `among`. None when no obstacle is

@@ -7,8 +7,8 @@
 
 namespace halfstep {
 
-/// As manifest.json has it: status, judged_by, broken, touched (experiments/README.md, "Whether the
-/// promise held").
+/// As manifest.json has it: status, judged_by, broken, touched (experiments/episodes.md, "Whether
+/// the promise held").
 nlohmann::ordered_json PromiseJson(const Promise& promise);
 
 /// The reverse of PromiseJson(). Throws nlohmann::json::exception for what it did not write.

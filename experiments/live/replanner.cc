@@ -106,7 +106,7 @@ bool Replanner::Change(const Situation& s, const WalkPlan& plan, int junction,
                        Proposal* proposal) const {
   constexpr int kProvedAtOnce = 4;  // half-steps behind the junction
   const double begin = SteadySeconds();
-  const auto& [half_step, X_WS] = Nth(plan.sequence.half_steps, junction);
+  const auto& [half_step, X_WS, rest] = Nth(plan.sequence.half_steps, junction);
   std::optional<StepState> in_air;
   if (half_step.kind == HalfStepKind::kUp) in_air = {X_WS, half_step.support};
   const std::int64_t left = config_.experiment.planner.max_nodes - proposal->nodes;

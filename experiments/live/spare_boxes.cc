@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "experiments/config/data_folder.h"
 #include "wpg/files/input_error.h"
 
 namespace halfstep {
@@ -30,9 +31,10 @@ Place LoadEpisodePlace(const LiveConfig& config) {
   return place;
 }
 
-LoadedEpisode LoadEpisode(const std::string& path, const std::vector<YamlOverride>& overrides,
+LoadedEpisode LoadEpisode(const std::string& given, const std::vector<YamlOverride>& overrides,
                           const std::function<LiveConfig(LiveConfig)>& change,
                           const Toolbox& tools) {
+  const std::string path = FileOrShipped(given, "episodes").string();
   const std::string text = ReadYamlFile(path);
   LoadedEpisode loaded{.config = change(ParseLiveConfig(path, text, overrides, nullptr, tools)),
                        .place = {}};

@@ -1,5 +1,5 @@
 #!/bin/sh
-# The moving pictures of the project's README, of halfstep/sqp over overlaps, heights and durations:
+# The moving pictures of the project's README, of halfstep/sqp as it is by default:
 #   experiments/pages/draw_walk.sh                    bar_8cm, notebooks-data/over_the_cable.gif
 #   experiments/pages/draw_walk.sh CONFIG OUT.gif WIDTH
 #                                                     stairs_15cm notebooks-data/up_the_stairs.gif 340
@@ -13,8 +13,7 @@ rate=12.5
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 build/release/experiments/halfstep run "experiments/configs/$config.yaml" \
-  --set 'smoothing.methods=[halfstep/sqp]' --set smoothing.optimizer.heights=true \
-  --set smoothing.optimizer.durations=true --out "$folder/run" --quiet
+  --set 'smoothing.methods=[halfstep/sqp]' --out "$folder/run" --quiet
 mkdir "$folder/pictures"
 node experiments/pages/draw_walk.mjs "$folder/run/report.html" "$folder/pictures" $rate \
   halfstep/sqp camera=corner

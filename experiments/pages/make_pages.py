@@ -27,7 +27,8 @@ img { max-width: 100%; } img[align=right] { margin-left: 1em; } :root { color-sc
 """
 MENU = {"README.md": "halfstep", "experiments/tutorial.md": "Tutorial", "examples.html": "Examples",
         "cpp/index.html": "C++", "python/halfstep.html": "Python",
-        "experiments/README.md": "Command and files", "smoothing/README.md": "Smoothing",
+        "experiments/README.md": "Command", "experiments/config.md": "Config",
+        "experiments/files.md": "Files", "smoothing/README.md": "Smoothing",
         "planner/README.md": "Planner", "wpg/README.md": "Walking", "opt/README.md": "Solvers",
         "notebooks-data/measurements.md": "Measurements"}
 

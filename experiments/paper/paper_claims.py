@@ -237,8 +237,7 @@ def rooms(printed):
 
 
 @claim("plans improve by short-cuts", "yes", *(
-    f"halfstep plan {CONFIGS}/clutter.yaml --set planner.name=rrt --json --quiet "
-    f"--set planner.unimproved_nodes={nodes}"
+    f"halfstep plan {CONFIGS}/clutter.yaml --set planner.unimproved_nodes={nodes} --json --quiet"
     for nodes in (0, 3000)))
 def short_cuts(first, improved):
     first, improved = (json.loads(printed) for printed in (first, improved))

@@ -58,26 +58,6 @@ py::object NodeToPython(const YamlNode& node) {
   return py::none();
 }
 
-// The config with paths that hold in every folder, with every key.
-py::object Resolved(ExperimentConfig config) {
-  if (const auto scene = ScenePath(config)) config.scene = fs::absolute(*scene).string();
-  const fs::path robot(config.robot);
-  if (robot.has_parent_path() || robot.has_extension()) {
-    config.robot = fs::absolute(RobotPath(config)).string();
-  }
-  if (std::string& cache = config.swept_volumes.cache; !cache.empty()) {
-    cache = fs::absolute(fs::path(config.directory) / cache).lexically_normal().string();
-  }
-  if (std::string& out = config.output_directory; !out.empty()) {
-    out = fs::absolute(fs::path(config.directory) / out).lexically_normal().string();
-  }
-  const std::string text = WriteYaml([&](Fields& fields) { DeclareFields(fields, &config); });
-  YamlComplaints complaints("config");
-  const YamlNode root = ParseYaml(text, "", &complaints);
-  complaints.ThrowIfAny();
-  return NodeToPython(root);
-}
-
 std::vector<YamlOverride> ToOverrides(const Overrides& overrides) {
   std::vector<YamlOverride> all;
   for (const auto& [key, value] : overrides) all.push_back({key, value});
@@ -129,12 +109,31 @@ py::list OptionGroups(const Toolbox& tools, const std::string& method) {
 
 }  // namespace
 
+py::object ConfigToPython(ExperimentConfig config) {
+  if (const auto scene = ScenePath(config)) config.scene = fs::absolute(*scene).string();
+  const fs::path robot(config.robot);
+  if (robot.has_parent_path() || robot.has_extension()) {
+    config.robot = fs::absolute(RobotPath(config)).string();
+  }
+  if (std::string& cache = config.swept_volumes.cache; !cache.empty()) {
+    cache = fs::absolute(fs::path(config.directory) / cache).lexically_normal().string();
+  }
+  if (std::string& out = config.output_directory; !out.empty()) {
+    out = fs::absolute(fs::path(config.directory) / out).lexically_normal().string();
+  }
+  const std::string text = WriteYaml([&](Fields& fields) { DeclareFields(fields, &config); });
+  YamlComplaints complaints("config");
+  const YamlNode root = ParseYaml(text, "", &complaints);
+  complaints.ThrowIfAny();
+  return NodeToPython(root);
+}
+
 void BindConfig(py::module_& module, const ModuleTools& tools) {
   module.def("load_config", [tools](const std::string& path, const Overrides& overrides) {
-    return Resolved(LoadConfig(path, ToOverrides(overrides), *tools));
+    return ConfigToPython(LoadConfig(path, ToOverrides(overrides), *tools));
   });
   module.def("resolve_config", [tools](const std::string& path, const std::string& text) {
-    return Resolved(ParseConfig(path, text, {}, *tools));
+    return ConfigToPython(ParseConfig(path, text, {}, *tools));
   });
   module.def("data_folder", [] { return DataFolder().string(); });
   module.def("robots", [] { return Stems(RobotsFolder()); });

@@ -31,7 +31,7 @@ PlacedWalk WalkAt(const PlacedExperiment& placed, const py::dict& given) {
   return WalkWith(setting, setting->problem.Start(), given);
 }
 
-// (status, sentence, footsteps as rows (foot, x, y, yaw), wall time [s]).
+// (status, sentence, footsteps as rows (foot, x, y, z, yaw), wall time [s], config of the plan).
 py::tuple Plan(const PlacedExperiment& placed, const py::object& progress) {
   if (!placed.config.has_goal) throw std::invalid_argument("plan: the config has no goal");
   PlannedWalk walk;
@@ -41,17 +41,11 @@ py::tuple Plan(const PlacedExperiment& placed, const py::object& progress) {
   });
   py::list footsteps;
   for (const Footstep& step : walk.plan.footsteps) {
-    const Pose2 X = step.X_WF.LevelPose();
-    footsteps.append(py::make_tuple(std::string(Name(step.side)), X.x, X.y, X.yaw));
+    const Foothold& at = step.X_WF;
+    footsteps.append(py::make_tuple(std::string(Name(step.side)), at.x, at.y, at.height, at.yaw));
   }
-  const auto pose = [](const Foothold& X_WF) {
-    const Pose2 X = X_WF.LevelPose();
-    return py::make_tuple(X.x, X.y, X.yaw);
-  };
-  const auto start =
-      StartOf(placed.config, placed.experiment.robot, *placed.experiment.scene.ground);
   return py::make_tuple(std::string(Name(walk.plan.status)), walk.plan.sentence, footsteps,
-                        py::make_tuple(pose(start[0]), pose(start[1])), walk.plan.time);
+                        walk.plan.time, ConfigToPython(walk.config));
 }
 
 // What Python knows of a method's result.

@@ -4,12 +4,16 @@
 
 #include <memory>
 
+#include "experiments/config/experiment_config.h"
 #include "experiments/config/toolbox.h"
 
 namespace halfstep::python {
 
 /// What configs may name, with those that Python registered: the module's own.
 using ModuleTools = std::shared_ptr<Toolbox>;
+
+/// The config as a dict with every key, whose paths are absolute.
+pybind11::object ConfigToPython(ExperimentConfig config);
 
 /// Each declares one concept in the module.
 void BindExceptions(pybind11::module_& module);

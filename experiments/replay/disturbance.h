@@ -10,7 +10,7 @@
 namespace halfstep::replay {
 
 /// What is not known of a robot and its floor, and what happens to it. Documented in
-/// experiments/README.md, "Replay".
+/// experiments/replay.md, "Replay".
 struct Disturbance {
   double friction = 0.7;            ///< of the soles on the floor
   double contact_time = 0.005;      ///< ModelOptions::contact_time [s]

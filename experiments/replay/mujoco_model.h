@@ -14,7 +14,7 @@
 namespace halfstep::replay {
 
 /// What the simulated robot is made of beside its URDF; the numbers are HRP-2's (PhysicsOf() has
-/// those of other sizes). Documented in experiments/README.md, "Replay".
+/// those of other sizes). Documented in experiments/replay.md, "Replay".
 struct ModelOptions {
   double timestep = 0.0005;  ///< [s]; half or twice of it changes the ZMP's error by a millimetre
   /// Friction of the soles on the floor. At 0.2 the walks are the same; at 0.05 soles slip by

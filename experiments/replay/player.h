@@ -13,7 +13,7 @@ namespace halfstep::replay {
 
 class TubeGauge;
 
-/// How a walk is played. Documented in experiments/README.md, "Replay".
+/// How a walk is played. Documented in experiments/replay.md, "Replay".
 struct PlayOptions {
   double settle = 0.5;        ///< standing in the first row's posture before t = 0 [s]
   double hold = 1.0;          ///< standing in the last row's posture after the walk [s]

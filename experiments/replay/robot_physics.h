@@ -25,7 +25,7 @@ RobotScale ScaleOf(const RobotModel& robot);
 /// ModelOptions): stiffness K ∝ m ℓ, rotor inertia ∝ m ℓ², damping ∝ m ℓ √ℓ, so that the damping
 /// ratio D/√(K I) stays, contacts' time constant ∝ √ℓ. The time step is HRP-2's over the least
 /// whole number that makes it no more than HRP-2's times √(ℓ/0.705 m).
-/// Documented in experiments/README.md, "Replay".
+/// Documented in experiments/replay.md, "Replay".
 ModelOptions PhysicsOf(const RobotModel& robot);
 /// The same with what a config or the command's options say.
 ModelOptions PhysicsOf(const RobotModel& robot, const ReplayConfig& config);

@@ -15,6 +15,9 @@ nlohmann::ordered_json PlacesJson(const PlannedWalk& walk) {
     places.push_back(
         {{"foot", Name(footstep.side)}, {"x_m", at.x}, {"y_m", at.y}, {"yaw_rad", at.yaw}});
     if (walk.on_levels) places.back()["z_m"] = at.height;
+    if (!walk.in_time) continue;
+    places.back()["rest_s"] = footstep.rest;
+    places.back()["rest_on_one_foot_s"] = footstep.rest_on_one_foot;
   }
   return places;
 }
@@ -41,7 +44,7 @@ std::string PlanJson(const PlannedWalk& walk) {
         {"box_m", goal.box},
         {"yaw_tolerance_rad", goal.yaw_tolerance ? nlohmann::ordered_json(*goal.yaw_tolerance)
                                                  : nlohmann::ordered_json(nullptr)}}},
-      {"cost_kind", walk.config.planner.CostName()},
+      {"cost_kind", walk.config.planner.CostName(walk.in_time)},
       {"cost", number(plan.cost)},
       {"footsteps", plan.footsteps.size()},
       {"places", PlacesJson(walk)},

@@ -6,7 +6,7 @@
 
 namespace halfstep {
 
-/// Text of plan.json of a run folder; keys: experiments/README.md, "Run folder".
+/// Text of plan.json of a run folder; keys: experiments/files.md, "Run folder".
 std::string PlanJson(const PlannedWalk& walk);
 
 }  // namespace halfstep

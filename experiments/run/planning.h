@@ -31,6 +31,7 @@ struct PlannedWalk {
   std::string changed_half_step = {};
   double proof_effort = 0.0;  ///< of half-steps that were called free by proofs (Work::effort)
   bool on_levels = false;     ///< whether the scene's ground has levels, so that heights are told
+  bool in_time = false;       ///< whether obstacles that move counted only where they are then
   std::vector<NotCovered> not_covered = {};  ///< what no proof behind the plan speaks of
 };
 

@@ -145,7 +145,7 @@ std::string ClockCell(const MethodRun& run) {
 
 // How the walks went on simulated robots.
 std::string Replays(const std::vector<MethodRun>& runs) {
-  std::string text = "\nsimulated, which proves nothing (experiments/README.md, Replay):\n";
+  std::string text = "\nsimulated, which proves nothing (experiments/replay.md):\n";
   for (const MethodRun& run : runs) {
     const std::optional<WalkReplay>& replay = run.replay;
     text += Formatted("  %-22s ", run.method.c_str());

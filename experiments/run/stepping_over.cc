@@ -159,9 +159,8 @@ std::string NoHalfStepOver(const Obstacle& obstacle, const RobotModel& robot,
   Obstacle box = obstacle;
   const Eigen::Vector2d middle =
       0.5 * ((print.near + print.far) * print.across + (print.left + print.right) * print.along);
-  box.X_WO.linear() =
-      Eigen::AngleAxisd(Atan2(print.across.y(), print.across.x()), Eigen::Vector3d::UnitZ())
-          .toRotationMatrix();
+  box.X_WO.linear().setIdentity();
+  box.X_WO.linear().topLeftCorner<2, 2>() << print.across, print.along;
   double low = 0.0, high = print.top;
   while (high - low > 1e-3) {
     const double height = 0.5 * (low + high);

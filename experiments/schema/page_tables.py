@@ -172,7 +172,7 @@ def project_pages():
     listed = subprocess.run(["git", "ls-files", "*.md"], cwd=ROOT, capture_output=True, text=True)
     names = listed.stdout.split() if listed.returncode == 0 else []
     return [ROOT / name for name in names] or [
-        path for top in ("", "*/", "experiments/*/") for path in ROOT.glob(f"{top}README.md")]
+        path for top in ("", "*/", "experiments/*/") for path in ROOT.glob(f"{top}*.md")]
 
 
 def main():

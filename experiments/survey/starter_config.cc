@@ -100,7 +100,7 @@ std::string StarterConfigText(const RobotModel& robot, const StarterConfig& conf
 
 std::string StairsSceneText(const Flight& flight) {
   return Formatted(
-      "# %d treads of %.4g cm, each %.4g cm high: planner/README.md, \"Ground\".\n"
+      "# %d treads of %.4g cm, each %.4g cm high: planner/README.md, \"Levels\".\n"
       "surfaces:\n"
       "  - name: flight\n"
       "    stairs: {at: {x_m: %.6g}, rise_m: %.6g, run_m: %.6g, width_m: %.3g, count: %d}\n",

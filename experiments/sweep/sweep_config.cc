@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/config/data_folder.h"
 #include "experiments/config/folder_name.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/number_text.h"
@@ -258,7 +259,8 @@ std::string OverrideText(const SweepCase& one) {
 
 SweepConfig LoadSweep(const std::string& path, const std::vector<YamlOverride>& overrides,
                       bool check, Toolbox tools) {
-  return ParseSweep(path, ReadYamlFile(path), overrides, check, std::move(tools));
+  const std::string file = FileOrShipped(path, "sweeps").string();
+  return ParseSweep(file, ReadYamlFile(file), overrides, check, std::move(tools));
 }
 
 SweepConfig ParseSweep(const std::string& path, const std::string& text,

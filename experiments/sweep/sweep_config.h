@@ -27,7 +27,7 @@ struct SweepAxis {
   std::string zip{};  ///< axes with the same word advance together; "": by itself
 };
 
-/// A sweep as its YAML file says it (experiments/README.md).
+/// A sweep as its YAML file says it (experiments/config.md).
 struct SweepConfig {
   std::string name;              ///< default: the file's stem
   std::string config;            ///< path of the base config, relative to the file

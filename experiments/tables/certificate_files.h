@@ -30,7 +30,7 @@ CertifiedWalk CertifyWalk(const CertifiedFeasibility& test, const HalfStepSequen
 /// "certified", "violated" or "undecided".
 std::string_view VerdictName(Verdict verdict);
 
-/// Columns of certificate.csv: experiments/README.md.
+/// Columns of certificate.csv: experiments/files.md.
 CsvColumns CertificateColumns();
 /// certificate.csv.
 CsvFile CertificateCsv(const MarginEvaluator& evaluator, const Certificate& rows);

@@ -46,7 +46,12 @@ bool HasHeights(const HalfStepSequence& sequence) {
          });
 }
 
-CsvColumns FootstepsColumns(bool with_heights) {
+bool HasRests(const HalfStepSequence& sequence) {
+  return std::ranges::any_of(sequence.half_steps,
+                             [](const PlacedHalfStep& placed) { return placed.rest != 0.0; });
+}
+
+CsvColumns FootstepsColumns(bool with_heights, bool with_rests) {
   CsvColumns columns = {
       {"footstep", kInteger, "", "0 twice: the feet at the start; then 1, 2, ..."},
       {"foot", kString, "", "left or right"},
@@ -59,24 +64,38 @@ CsvColumns FootstepsColumns(bool with_heights) {
   if (with_heights) {
     columns.insert(columns.begin() + 4, {"z_m", kNumber, "m", "height of the level there", "W"});
   }
+  if (with_rests) {
+    columns.push_back({"rest_s", kNumber, "s", "at rest on both feet before the step"});
+    columns.push_back({"rest_on_one_foot_s", kNumber, "s", "at rest on one foot before it lands"});
+  }
   return columns;
 }
 
 CsvFile FootstepsCsv(const HalfStepSequence& sequence) {
-  const bool has_heights = HasHeights(sequence);
-  CsvWriter csv(FootstepsColumns(has_heights));
-  const auto row = [&](int index, Side side, const Foothold& X_WF, double height, double duration) {
-    csv.Cell(index).Cell(Name(side)).Cell(X_WF.x).Cell(X_WF.y);
+  const bool has_heights = HasHeights(sequence), has_rests = HasRests(sequence);
+  CsvWriter csv(FootstepsColumns(has_heights, has_rests));
+  const auto row = [&](int index, const Footstep& footstep) {
+    const Foothold& X_WF = footstep.X_WF;
+    csv.Cell(index).Cell(Name(footstep.side)).Cell(X_WF.x).Cell(X_WF.y);
     if (has_heights) csv.Cell(X_WF.height);
-    csv.Cell(X_WF.yaw).Cell(height).Cell(duration).EndRow();
+    csv.Cell(X_WF.yaw).Cell(footstep.via_height).Cell(footstep.duration);
+    if (has_rests) csv.Cell(footstep.rest).Cell(footstep.rest_on_one_foot);
+    csv.EndRow();
   };
   for (Side side : {Side::kLeft, Side::kRight}) {
-    row(0, side, Nth(sequence.start, Index(side)), 0.0, 0.0);
+    row(0, {.side = side,
+            .X_WF = Nth(sequence.start, Index(side)),
+            .via_height = 0.0,
+            .duration = 0.0});
   }
   for (int step = 0; step < sequence.num_steps(); ++step) {
     const PlacedHalfStep& down = Nth(sequence.half_steps, 2 * step + 1);
-    row(step + 1, down.half_step.swing(), OnItsLevel(down.X_WS * down.half_step.X_SF),
-        down.half_step.via_height, down.half_step.duration);
+    row(step + 1, {.side = down.half_step.swing(),
+                   .X_WF = OnItsLevel(down.X_WS * down.half_step.X_SF),
+                   .via_height = down.half_step.via_height,
+                   .duration = down.half_step.duration,
+                   .rest = Nth(sequence.half_steps, 2 * step).rest,
+                   .rest_on_one_foot = down.rest});
   }
   return csv.file();
 }

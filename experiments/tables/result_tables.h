@@ -38,9 +38,12 @@ struct MethodRun {
 
 /// Whether a sole of the plan stands elsewhere than at z = 0.
 bool HasHeights(const HalfStepSequence& sequence);
-/// Columns of footsteps.csv; those of a plan with a sole elsewhere than at z = 0 have its height.
-CsvColumns FootstepsColumns(bool with_heights);
-/// Each table of a run folder; columns: experiments/README.md.
+/// Whether the plan rests between half-steps.
+bool HasRests(const HalfStepSequence& sequence);
+/// Columns of footsteps.csv; those of a plan with a sole elsewhere than at z = 0 have its height,
+/// those of a plan that rests its rests.
+CsvColumns FootstepsColumns(bool with_heights, bool with_rests);
+/// Each table of a run folder; columns: experiments/files.md.
 CsvFile FootstepsCsv(const HalfStepSequence& sequence);
 /// Columns of overlaps.csv.
 CsvColumns OverlapsColumns();

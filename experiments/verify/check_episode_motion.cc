@@ -125,7 +125,7 @@ void CheckEpisodeEnding(const EpisodeText& episode, const EpisodeManifest& manif
   if (!(executed.end() <= manifest.end + kEndRounding)) {
     return wrong(Formatted("it walks until %.9g s", executed.end()));
   }
-  const auto& [down, X_WS] = all.planned.back().half_steps[begun - 1];
+  const auto& [down, X_WS, rest] = all.planned.back().half_steps[begun - 1];
   std::array<Foothold, 2> feet;
   Nth(feet, Index(down.support)) = X_WS;
   Nth(feet, Index(down.swing())) = X_WS * down.X_SF;

@@ -114,8 +114,8 @@ bool NearForms(const FormColumns& a, const FormColumns& b) {
 bool SameHalfStep(const EpisodeText& episode, const EpisodeWalks& all, size_t a, size_t b,
                   size_t i) {
   const HalfStepRow &x = episode.walks[a].half_steps[i], &y = episode.walks[b].half_steps[i];
-  const auto& [p, X_WS] = all.planned[a].half_steps[i];
-  const auto& [q, Y_WS] = all.planned[b].half_steps[i];
+  const auto& [p, X_WS, p_rest] = all.planned[a].half_steps[i];
+  const auto& [q, Y_WS, q_rest] = all.planned[b].half_steps[i];
   return p.up == q.up && p.support == q.support && Near(X_WS, Y_WS) && Near(p.X_SF, q.X_SF) &&
          Near(p.via_height, q.via_height) && Near(x.start, y.start) &&
          Near(x.duration, y.duration) && Near(x.height_scale, y.height_scale) &&

@@ -165,7 +165,7 @@ bool CheckOverlaps(const std::vector<HalfStepRow>& half_steps,
     fault = i % 2 == 1 ? FaultOfStep(half_steps[i - 1], row) : "";
     if (!fault.empty()) findings->Disagree(line + fault);
     if (i + 1 == n) break;
-    start += row.duration - (overlaps ? (*overlaps)[i].overlap : 0);
+    start += row.duration - (overlaps ? (*overlaps)[i].overlap : -planned.half_steps[i + 1].rest);
     if (!overlaps) continue;
     const std::string overlap_fault =
         FaultOf((*overlaps)[i], row, half_steps[i + 1], planned.half_steps[i].half_step);
@@ -205,6 +205,7 @@ void CheckFixed(const std::vector<HalfStepRow>& half_steps, const std::vector<Ov
     double is = 0, demanded = 0;
     if (one.parameter == "overlap" && i < overlaps.size()) {
       is = overlaps[i].overlap;
+      demanded = 0.0 - planned.half_steps[i + 1].rest;
     } else if (one.parameter == "duration" && i < half_steps.size()) {
       is = half_steps[i].duration;
       demanded = planned.half_steps[i].half_step.duration;
@@ -245,18 +246,21 @@ void CheckFootsteps(const std::vector<FootstepRow>& rows, const WalkPlan& planne
   for (size_t i = 0; i < rows.size(); ++i) {
     Side side = i == 0 ? Side::kLeft : Side::kRight;
     Foothold X_WF = planned.start[std::min<size_t>(i, 1)];
-    double height = 0, duration = 0;
+    double height = 0, duration = 0, rest = 0, rest_on_one = 0;
     if (i >= 2) {
       const PlacedHalfStep& down = planned.half_steps[2 * (i - 2) + 1];
       side = down.half_step.swing();
       X_WF = down.X_WS * down.half_step.X_SF;
       height = down.half_step.via_height;
       duration = down.half_step.duration;
+      rest = planned.half_steps[2 * (i - 2)].rest;
+      rest_on_one = down.rest;
     }
     const FootstepRow& row = rows[i];
     if (row.foot != Name(side) || !Same(row.X_WF.x, X_WF.x) || !Same(row.X_WF.y, X_WF.y) ||
         !Same(row.X_WF.yaw, X_WF.yaw) || !Same(row.z, X_WF.height) ||
-        !Same(row.via_height, height) || !Same(row.duration, duration)) {
+        !Same(row.via_height, height) || !Same(row.duration, duration) || !Same(row.rest, rest) ||
+        !Same(row.rest_on_one, rest_on_one)) {
       findings->Disagree(Formatted("footsteps.csv:%zu: not the footstep of config.yaml", i + 2));
     }
   }

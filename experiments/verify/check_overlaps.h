@@ -29,8 +29,9 @@ std::string FaultOfOverlap(double overlap, const HalfStepRow& before, const Half
 /// made of: kinds and supports as planned, starts that follow from durations and overlaps,
 /// t_{i+1} = t_i + T_i − Δ_i, overlaps within their natural bounds, one height scale and one
 /// support point a step, and the same durations and heights in both files. Without `overlaps` the
-/// walk is the planned motion: no overlap, durations and support points as planned, scale 1.
-/// Returns false when they describe none; then no DescribedWalk may be made of them.
+/// walk is the planned motion: no overlap, the planned rests, durations and support points as
+/// planned, scale 1. Returns false when they describe none; then no DescribedWalk may be made of
+/// them.
 bool CheckOverlaps(const std::vector<HalfStepRow>& half_steps,
                    const std::optional<std::vector<OverlapRow>>& overlaps, const WalkPlan& planned,
                    Findings* findings);

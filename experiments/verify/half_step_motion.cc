@@ -11,7 +11,7 @@ namespace {
 // plane, the swing foot at X_SF; all of it in W.
 WalkNumbers AtRest(const PlacedHalfStep& placed, const Eigen::Vector2d& p_S, double yaw, double z,
                    const Foothold& X_SF) {
-  const auto& [half_step, X_WS] = placed;
+  const auto& [half_step, X_WS, rest] = placed;
   const Foothold swing = X_WS * X_SF;
   WalkNumbers x;
   x.segment<2>(kComX) = x.segment<2>(kZmpX) = X_WS.Planar() * p_S;

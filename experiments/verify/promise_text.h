@@ -8,7 +8,7 @@
 
 namespace halfstep::verify {
 
-/// An obstacle or a no-step area that was not as worlds of an episode say (experiments/README.md,
+/// An obstacle or a no-step area that was not as worlds of an episode say (experiments/episodes.md,
 /// "Whether the promise held"), by manifest.json or as it is derived here.
 struct BrokenText {
   std::string name;       ///< of the obstacle, or "no-step area 1"

@@ -7,7 +7,7 @@
 
 namespace halfstep::verify {
 
-/// Checks all that an episode's folder says (experiments/README.md, "Episodes"): files and hashes,
+/// Checks all that an episode's folder says (experiments/episodes.md): files and hashes,
 /// config, robot and scene, worlds, walks, grants, and, by its own geometry, that the robot began
 /// each half-step only with a way to come to rest. Of what made the episode it includes the reader
 /// of its config alone. `manifest_text` is that of manifest.json. Returns what the episode's proofs

@@ -15,7 +15,7 @@ class WalkFloor {
   /// (std::logic_error).
   explicit WalkFloor(const WalkPlan& planned) : height_(planned.start[0].height) {
     CheckOn(planned.start[1]);
-    for (const auto& [half_step, X_WS] : planned.half_steps) {
+    for (const auto& [half_step, X_WS, rest] : planned.half_steps) {
       CheckOn(X_WS);
       CheckOn(X_WS * half_step.X_SF);
     }

@@ -19,7 +19,7 @@ WalkPlan PlanOf(const std::array<Foothold, 2>& start, const std::vector<PlannedF
       if (!up) Nth(soles, Index(footstep.side)) = footstep.X_WF;
       half_step.up = up;
       half_step.X_SF = X_WS.Inverse() * Nth(soles, Index(footstep.side));
-      plan.half_steps.push_back({half_step, X_WS});
+      plan.half_steps.push_back({half_step, X_WS, up ? footstep.rest : footstep.rest_on_one});
     }
   }
   return plan;

@@ -29,6 +29,7 @@ struct HalfStep {
 struct PlacedHalfStep {
   HalfStep half_step;  ///< as seen from there
   Foothold X_WS;       ///< in W
+  double rest = 0;     ///< how long nothing moves before it begins [s]
 };
 
 /// A footstep: where a foot is put, and how.
@@ -37,6 +38,8 @@ struct PlannedFootstep {
   Foothold X_WF;            ///< its sole's place, in W
   double via_height = 0;    ///< of both half-steps that lead there [m]
   double duration = 0;      ///< of each of them [s]
+  double rest = 0;          ///< before the first of them begins, on both feet [s]
+  double rest_on_one = 0;   ///< between them, on one foot [s]
 };
 
 /// What footsteps are planned to be: half-steps 2j (up) and 2j + 1 (down) are step j.

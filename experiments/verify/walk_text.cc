@@ -88,6 +88,9 @@ std::vector<FootstepRow> ReadFootsteps(const std::string& path, const std::strin
   const bool has_heights = text.substr(0, text.find('\n')).find(",z_m,") != std::string::npos;
   const size_t yaw = has_heights ? 5 : 4;
   if (has_heights) columns.insert(columns.begin() + 4, "z_m");
+  // Where a plan rests between half-steps.
+  const bool has_rests = text.substr(0, text.find('\n')).find(",rest_s,") != std::string::npos;
+  if (has_rests) columns.insert(columns.end(), {"rest_s", "rest_on_one_foot_s"});
   const CsvText csv(path, text, columns);
   std::vector<FootstepRow> rows;
   for (size_t i = 0; i < csv.size(); ++i) {
@@ -98,7 +101,9 @@ std::vector<FootstepRow> ReadFootsteps(const std::string& path, const std::strin
                     .X_WF = {csv.Number(i, 2), csv.Number(i, 3), csv.Number(i, yaw)},
                     .z = has_heights ? csv.Number(i, 4) : 0.0,
                     .via_height = csv.Number(i, yaw + 1),
-                    .duration = csv.Number(i, yaw + 2)});
+                    .duration = csv.Number(i, yaw + 2),
+                    .rest = has_rests ? csv.Number(i, yaw + 3) : 0.0,
+                    .rest_on_one = has_rests ? csv.Number(i, yaw + 4) : 0.0});
   }
   return rows;
 }

@@ -43,6 +43,7 @@ struct FootstepRow {
   Pose2 X_WF;                           ///< place of the sole, in W, seen from above
   double z = 0;                         ///< its height [m]
   double via_height = 0, duration = 0;  ///< [m], [s]
+  double rest = 0, rest_on_one = 0;     ///< on both feet before its step, on one foot [s]
 };
 
 /// A row of summary.csv.

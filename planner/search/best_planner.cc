@@ -11,6 +11,7 @@
 #include "planner/search/stand_map.h"
 #include "planner/search/state_buckets.h"
 #include "planner/search/step_search.h"
+#include "planner/search/timed_search.h"
 
 namespace halfstep {
 namespace {
@@ -22,6 +23,7 @@ constexpr int kPlaces = 4000;            // of the map
 /// Of A*, one turn after the other: the larger, the sooner it finds a way.
 constexpr double kWeights[] = {2.0, 1.4, 1.15};
 constexpr double kFirstWeight = 5.0;
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
 // One call of Plan.
 class BestSearch {
@@ -36,19 +38,24 @@ class BestSearch {
         graph_(*graph),
         monitor_(*monitor),
         random_(*random),
-        least_(request.set, *graph) {}
+        least_(request.set, *graph) {
+    if (request.times == nullptr) return;
+    in_time_.emplace(*request.times, request.set.prototype.duration, graph);
+    edges_ = &*in_time_;
+  }
 
   SearchEnd Run() {
     for (double turn = kFirstTurn; monitor_.plans().empty(); turn *= 2.0) {
       monitor_.Allow(turn);
-      if (Grow(nullptr)) return {.exhausted = true};
+      const bool no_tree = Grow(nullptr);
       if (!monitor_.plans().empty()) break;
       if (monitor_.stopped()) return {};
-      monitor_.Allow(turn);
+      // The cells of A* are smaller: it has the last word.
+      monitor_.Allow(no_tree ? kUnlimited : turn);
       if (SearchWith(kFirstWeight)) return {.exhausted = true};
       if (monitor_.stopped()) return {};
     }
-    monitor_.Allow(std::numeric_limits<double>::infinity());
+    monitor_.Allow(kUnlimited);
     if (monitor_.Stop()) return {};
     if (!request_.ground) map_.emplace(request_.set, starts_.front(), kPlaces, &graph_);
     coarse_ = true;
@@ -71,8 +78,11 @@ class BestSearch {
 
   // One turn of each way to improve the best plan; whether nothing is better.
   bool Round(double turn) {
-    monitor_.Allow(4.0 * turn);
-    StepPlan fewest = FewestSteps();
+    StepPlan fewest;
+    if (edges_ == nullptr) {  // in time they are what costs least
+      monitor_.Allow(4.0 * turn);
+      fewest = FewestSteps();
+    }
     if (!fewest.ks.empty() && !monitor_.stopped()) {
       monitor_.Allow(turn);
       fewest = Shorten(std::move(fewest));
@@ -109,7 +119,7 @@ class BestSearch {
   // Until the turn ends.
   StepPlan Shorten(StepPlan plan) {
     while (!monitor_.Stop()) {
-      auto found = FindShortcut(plan, starts_, rrt_.cells, &graph_, &monitor_, random_);
+      auto found = FindShortcut(plan, starts_, rrt_.cells, &graph_, &monitor_, edges_, random_);
       if (!found || !(found->cost < plan.cost)) continue;
       plan = std::move(*found);
       monitor_.Offer(plan);
@@ -120,7 +130,7 @@ class BestSearch {
   // A tree; whether it ended for want of half-steps.
   bool Grow(StepPlan* plan) {
     StepPlan grown;
-    const TreeEnd end = GrowTree(starts_, rrt_, &graph_, &monitor_, random_, &grown);
+    const TreeEnd end = GrowTree(starts_, rrt_, &graph_, &monitor_, edges_, random_, &grown);
     if (end == TreeEnd::kPlan) monitor_.Offer(grown);
     if (end == TreeEnd::kPlan && plan != nullptr) *plan = std::move(grown);
     return end == TreeEnd::kExhausted;
@@ -181,35 +191,38 @@ class BestSearch {
       }
       return StepsToGo{.bound = bound / each, .guess = guess / each};
     };
-    const bool ended =
-        SearchSteps(starts_, to_go, {.weights = {weight}, .cells = Cells()}, &graph_, &monitor_);
-    return ended && monitor_.best_cost() == before;
+    return Search(to_go, weight) && monitor_.best_cost() == before;
+  }
+
+  // Whether it ended by itself. In time only a weight of 1 leaves nothing out.
+  bool Search(const std::function<StepsToGo(const StepState&)>& to_go, double weight) {
+    if (edges_ == nullptr) {
+      return SearchSteps(starts_, to_go, {.weights = {weight}, .cells = Cells()}, &graph_,
+                         &monitor_);
+    }
+    return SearchStepsInTime(starts_, to_go, {.weights = {weight, 1.0}, .cells = Cells()}, request_,
+                             &graph_, &monitor_);
   }
 
   // A* near a plan, which tells how far it is to the goal around what stands in between.
   void SearchAlong(const StepPlan& plan) {
     constexpr double kNear = 0.4;    // [m] of its states, by StateDistance
     constexpr double kBetter = 0.9;  // what a good plan costs of it
-    std::vector<StepState> states = {plan.start};
-    std::vector<double> left = {plan.cost};
-    for (int k : plan.ks) {
-      states.push_back(graph_.After(states.back(), k));
-      left.push_back(left.back() - graph_.cost(k));
-    }
+    const PlanStates path = StatesOf(graph_, plan, edges_);
     const double each = graph_.reach().least_cost();
     const auto to_go = [&](const StepState& state) {
       double guess = std::numeric_limits<double>::infinity();
-      for (size_t j = 0; j < states.size(); ++j) {
-        const Pose2 X_WS = state.X_WS.Planar(), near = states[j].X_WS.Planar();
+      for (size_t j = 0; j < path.states.size(); ++j) {
+        const Pose2 X_WS = state.X_WS.Planar(), near = path.states[j].X_WS.Planar();
         if ((X_WS.position() - near.position()).squaredNorm() > kNear * kNear) continue;
         const double away = StateDistance(X_WS, near, true);
         if (away > kNear) continue;
-        guess = std::min(guess, kBetter * left[j] + least_.per_metre() * away);
+        guess = std::min(guess, kBetter * (plan.cost - path.costs[j]) + least_.per_metre() * away);
       }
       const double bound = least_.From(state);
       return StepsToGo{.bound = bound / each, .guess = std::max(bound, guess) / each};
     };
-    SearchSteps(starts_, to_go, {.weights = {1.0}, .cells = Cells()}, &graph_, &monitor_);
+    Search(to_go, 1.0);
   }
 
   const PlanRequest& request_;
@@ -220,6 +233,8 @@ class BestSearch {
   PlanMonitor& monitor_;
   std::mt19937_64& random_;
   LeastCost least_;
+  std::optional<TimedEdges> in_time_;
+  TimedEdges* edges_ = nullptr;  // null: not in time
   bool coarse_ = false;
   std::optional<StandMap> map_;
 };

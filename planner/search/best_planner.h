@@ -11,12 +11,14 @@ namespace halfstep {
 /// Finds a plan, and then better ones until it is told to stop: random trees and short-cuts, which
 /// soon find some way, take turns with weighted A*, which finds the best of those nearby and knows
 /// when nothing is better. Turns grow from round to round. A* is led by LeastCost and,
-/// where half-steps are called free by volumes, by a StandMap.
+/// where half-steps are called free by volumes, by a StandMap. In time the same searches are those
+/// in time.
 class BestPlanner : public FootstepPlanner {
  public:
   /// Of the random trees, and the cells of A*.
   BestPlanner(const RrtOptions& rrt, const PoseCells& cells) : rrt_(rrt), cells_(cells) {}
   PlanResult Plan(const PlanRequest& request, std::mt19937_64& random) const override;
+  bool knows_time() const override { return true; }
 
  private:
   RrtOptions rrt_;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "planner/search/timed_search.h"
+
 namespace halfstep {
 
 PlanResult FootstepAStar::Plan(const PlanRequest& request, std::mt19937_64&) const {
@@ -12,11 +14,15 @@ PlanResult FootstepAStar::Plan(const PlanRequest& request, std::mt19937_64&) con
       elements_ == Elements::kAll ? AllElements(request.set) : ClassicSubset(request.set);
   return PlanWith(
       request, elements,
-      [this](const std::vector<StepState>& starts, StepGraph* graph, PlanMonitor* monitor) {
+      [&](const std::vector<StepState>& starts, StepGraph* graph, PlanMonitor* monitor) {
         const auto to_go = [graph](const StepState& state) {
           return StepsToGo{.bound = static_cast<double>(graph->LeastSteps(state)),
                            .guess = graph->SteadySteps(state)};
         };
+        if (request.times != nullptr) {
+          return SearchEnd{.exhausted =
+                               SearchStepsInTime(starts, to_go, options_, request, graph, monitor)};
+        }
         return SearchEnd{.exhausted = SearchSteps(starts, to_go, options_, graph, monitor)};
       });
 }

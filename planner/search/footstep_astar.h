@@ -20,6 +20,7 @@ class FootstepAStar : public FootstepPlanner {
       : elements_(elements), options_(options) {}
 
   PlanResult Plan(const PlanRequest& request, std::mt19937_64& random) const override;
+  bool knows_time() const override { return true; }
 
  private:
   Elements elements_;

@@ -14,6 +14,7 @@
 
 #include "planner/search/goal_region.h"
 #include "planner/search/half_step_query.h"
+#include "planner/search/half_step_times.h"
 #include "planner/search/step_cost.h"
 #include "planner/search/step_set.h"
 #include "planner/search/termination.h"
@@ -47,7 +48,12 @@ struct PlanRequest {
   GoalRegion goal;             ///< where the walk shall end
   const StepSet& set;          ///< not empty
   const HalfStepQuery& query;  ///< of the same set
-  StepCost cost = {};          ///< what is minimized
+  /// Where obstacles move: when half-steps are free of these, while `query` answers for what rests.
+  /// Plans then have times, and what is minimized is the walk's duration: a second counts as much
+  /// as a second of the set's half-steps. Preconditions: the planner knows time, the elements cost
+  /// the same, and no foot is in the air (std::logic_error). Null: `query` answers for all.
+  const HalfStepTimes* times = nullptr;
+  StepCost cost = {};  ///< what is minimized
   /// Heights of the ground's levels, ascending, on one of which each sole stands [m]. Empty: all is
   /// at the height of the start, unless there is `ground`.
   std::vector<double> levels = {};
@@ -116,6 +122,8 @@ class FootstepPlanner {
   virtual PlanResult Plan(const PlanRequest& request, std::mt19937_64& random) const = 0;
   /// Whether it plans from level to level; if not, all has to be at one height.
   virtual bool knows_levels() const { return true; }
+  /// Whether it plans in time (PlanRequest::times).
+  virtual bool knows_time() const { return false; }
 };
 
 }  // namespace halfstep

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "planner/search/plan_search.h"
 #include "planner/search/plan_shortcut.h"
@@ -45,12 +46,16 @@ TreeSample Sample(const StepGraph& graph, double goal_bias, std::mt19937_64& ran
 }  // namespace
 
 TreeEnd GrowTree(const std::vector<StepState>& starts, const RrtOptions& options, StepGraph* graph,
-                 PlanMonitor* monitor, std::mt19937_64& random, StepPlan* plan) {
-  StepTree tree({}, options.cells, graph, monitor);
+                 PlanMonitor* monitor, TimedEdges* edges, std::mt19937_64& random, StepPlan* plan) {
+  StepTree tree({}, options.cells, graph, monitor, edges);
   StepTree::Growth growth = StepTree::Growth::kTrapped;
   for (const StepState& start : starts) {
     if (monitor->Stop()) return TreeEnd::kStopped;
-    growth = tree.AddRoot(start, 0.0);
+    if (edges == nullptr) {
+      growth = tree.AddRoot(start, 0.0);
+    } else if (const auto at = edges->Start(start)) {
+      growth = tree.AddRoot(*at);
+    }
     if (growth == StepTree::Growth::kArrived) break;
   }
   while (growth != StepTree::Growth::kArrived) {
@@ -78,14 +83,19 @@ PlanResult FootstepRrt::Plan(const PlanRequest& request, std::mt19937_64& random
   return PlanWith(
       request, AllElements(request.set),
       [&](const std::vector<StepState>& starts, StepGraph* graph, PlanMonitor* monitor) {
+        std::optional<TimedEdges> in_time;
+        if (request.times != nullptr) {
+          in_time.emplace(*request.times, request.set.prototype.duration, graph);
+        }
+        TimedEdges* edges = in_time ? &*in_time : nullptr;
         StepPlan first;
-        const TreeEnd end = GrowTree(starts, options_, graph, monitor, random, &first);
+        const TreeEnd end = GrowTree(starts, options_, graph, monitor, edges, random, &first);
         if (end != TreeEnd::kPlan) return SearchEnd{.exhausted = end == TreeEnd::kExhausted};
         monitor->Offer(std::move(first));
         while (!IsCheapest(monitor->best_cost(), starts, *graph)) {
           if (monitor->Stop()) return SearchEnd{};
           const StepPlan best = monitor->plans().back();
-          TryShortcut(best, starts, options_.cells, graph, monitor, random);
+          TryShortcut(best, starts, options_.cells, graph, monitor, edges, random);
         }
         return SearchEnd{.exhausted = true};
       });

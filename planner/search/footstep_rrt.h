@@ -19,9 +19,10 @@ struct RrtOptions {
 /// How a tree ended: it found a plan, was stopped, or nothing was left to try.
 enum class TreeEnd { kPlan, kStopped, kExhausted };
 
-/// Grows a tree from `starts` to the goal until one of these. `plan` is written with kPlan.
+/// Grows a tree from `starts` to the goal until one of these, in time with `edges`; null: not in
+/// time. `plan` is written with kPlan.
 TreeEnd GrowTree(const std::vector<StepState>& starts, const RrtOptions& options, StepGraph* graph,
-                 PlanMonitor* monitor, std::mt19937_64& random, StepPlan* plan);
+                 PlanMonitor* monitor, TimedEdges* edges, std::mt19937_64& random, StepPlan* plan);
 
 /// Rapidly-exploring random tree over a discrete set of elements, after [LaValle2001] and
 /// [Perrin2012]: the node nearest to a random pose takes the free element that leads nearest to it.
@@ -32,6 +33,7 @@ class FootstepRrt : public FootstepPlanner {
   /// They hold for every call.
   explicit FootstepRrt(const RrtOptions& options) : options_(options) {}
   PlanResult Plan(const PlanRequest& request, std::mt19937_64& random) const override;
+  bool knows_time() const override { return true; }
 
  private:
   RrtOptions options_;

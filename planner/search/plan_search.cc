@@ -4,6 +4,7 @@
 
 #include "wpg/check.h"
 #include "wpg/files/plain_locale.h"
+#include "wpg/files/text.h"
 #include "wpg/nth.h"
 
 namespace halfstep {
@@ -18,12 +19,9 @@ void CheckRequest(const PlanRequest& request) {
   HALFSTEP_CHECK(goal.IsValid(), "goal " << goal.X_WG.x << ", " << goal.X_WG.y << ", "
                                          << goal.X_WG.yaw << ", radius " << goal.radius);
   HALFSTEP_CHECK(request.set.size() > 0, "the set of half-steps is empty");
-}
-
-std::vector<StepState> StatesOf(const StepGraph& graph, const StepPlan& plan) {
-  std::vector<StepState> states = {plan.start};
-  for (int k : plan.ks) states.push_back(graph.After(states.back(), k));
-  return states;
+  HALFSTEP_CHECK(request.times == nullptr || !request.in_air, "in time, with a foot in the air");
+  HALFSTEP_CHECK(request.times == nullptr || request.cost.kind != CostKind::kSmoothedDuration,
+                 "in time, elements cost the same");
 }
 
 // Asks about the plans, the best first. What was refused is forbidden to later searches.
@@ -31,7 +29,7 @@ const StepPlan* FirstAccepted(const PlanRequest& request, const PlanMonitor& mon
                               StepGraph* graph, int* refusals) {
   for (auto plan = monitor.plans().rbegin(); plan != monitor.plans().rend(); ++plan) {
     if (!request.accepts) return &*plan;
-    const std::vector<StepState> states = StatesOf(*graph, *plan);
+    const std::vector<StepState> states = StatesOf(*graph, *plan).states;
     bool forbidden = false;
     for (size_t j = 0; j < plan->ks.size(); ++j) {
       forbidden = forbidden || graph->IsForbidden(states[j], plan->ks[j]);
@@ -48,6 +46,19 @@ const StepPlan* FirstAccepted(const PlanRequest& request, const PlanMonitor& mon
   return nullptr;
 }
 
+// How long a walk rests, and how much of it on one foot; "": nowhere.
+std::string RestsText(const std::vector<Footstep>& footsteps) {
+  double on_both_feet = 0.0, on_one_foot = 0.0;
+  for (const Footstep& footstep : footsteps) {
+    on_both_feet += footstep.rest;
+    on_one_foot += footstep.rest_on_one_foot;
+  }
+  if (on_both_feet + on_one_foot == 0.0) return "";
+  std::string text = Formatted(", at rest for %.3g s", on_both_feet + on_one_foot);
+  if (on_both_feet == 0.0) return text + " on one foot";
+  return on_one_foot == 0.0 ? text : text + Formatted(", %.3g s of it on one foot", on_one_foot);
+}
+
 void Solve(const PlanRequest& request, const StepGraph& graph, const StepPlan& plan,
            PlanResult* result) {
   result->status = PlanStatus::kSolved;
@@ -56,6 +67,7 @@ void Solve(const PlanRequest& request, const StepGraph& graph, const StepPlan& p
   result->cost = plan.cost;
   PlainStream sentence;
   sentence << plan.ks.size() << (plan.ks.size() == 1 ? " footstep" : " footsteps");
+  if (request.times != nullptr) sentence << RestsText(result->footsteps);
   if (result->stop == StopReason::kBudget) sentence << ", when the budget was used up";
   if (result->stop == StopReason::kClock) sentence << ", ended by the clock, not repeatable";
   if (result->stop == StopReason::kInterrupted) sentence << ", when it was interrupted";
@@ -122,6 +134,19 @@ void PlanMonitor::StartOver() {
   plans_.clear();
 }
 
+PlanStates StatesOf(const StepGraph& graph, const StepPlan& plan, const TimedEdges* edges) {
+  PlanStates path{{plan.start}, {0.0}};
+  for (size_t j = 0; j < plan.ks.size(); ++j) {
+    path.states.push_back(graph.After(path.states.back(), plan.ks[j]));
+    path.costs.push_back(path.costs.back() + graph.cost(plan.ks[j]));
+    if (edges == nullptr) continue;
+    const bool last = j + 1 == plan.ks.size();
+    path.costs.back() =
+        last ? edges->CostOfLanding(plan.timed[j]) : edges->CostOf(plan.timed[j].to);
+  }
+  return path;
+}
+
 PlanResult PlanWith(const PlanRequest& request, const std::vector<int>& elements,
                     const PlanSearch& search) {
   CheckRequest(request);
@@ -174,12 +199,17 @@ std::vector<Footstep> FootstepsOf(const PlanRequest& request, const StepGraph& g
                                   const StepPlan& plan) {
   std::vector<Footstep> footsteps;
   StepState state = plan.start;
+  const auto rests = RestsOf(plan.timed, request.set.prototype.duration);
   for (int k : plan.ks) {
     state = graph.After(state, k);
     footsteps.push_back({.side = state.support,
                          .X_WF = state.X_WS,
                          .via_height = request.set.prototype.via_height,
                          .duration = request.set.prototype.duration});
+    if (rests.empty()) continue;
+    const auto& [on_both_feet, on_one_foot] = rests[footsteps.size() - 1];
+    footsteps.back().rest = on_both_feet;
+    footsteps.back().rest_on_one_foot = on_one_foot;
   }
   return footsteps;
 }

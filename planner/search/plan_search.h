@@ -6,6 +6,7 @@
 
 #include "planner/search/footstep_planner.h"
 #include "planner/search/step_graph.h"
+#include "planner/search/timed_edges.h"
 
 namespace halfstep {
 
@@ -14,7 +15,19 @@ struct StepPlan {
   StepState start;      ///< where it begins, a foot in the air
   std::vector<int> ks;  ///< places in StepGraph::elements()
   double cost = 0.0;    ///< of the chain, by PlanRequest::cost
+  /// In time: how each of `ks` is taken. Else empty.
+  std::vector<TimedEdge> timed = {};
 };
+
+/// The states along a plan, the last of them its landing on the goal, and what it costs to get to
+/// each.
+struct PlanStates {
+  std::vector<StepState> states;  ///< one more than the plan has elements
+  std::vector<double> costs;      ///< of PlanRequest::cost, as many
+};
+/// In time with `edges`; null: not in time, or the costs do not matter.
+PlanStates StatesOf(const StepGraph& graph, const StepPlan& plan,
+                    const TimedEdges* edges = nullptr);
 
 /// Counts nodes, asks the termination and keeps the plans found, on behalf of one call of Plan.
 class PlanMonitor {

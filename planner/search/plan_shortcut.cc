@@ -11,34 +11,43 @@
 namespace halfstep {
 namespace {
 
-// A plan with all its states and costs up to them; the last state is the landing on the goal.
-struct Unrolled {
+// What a stretch begins with: states, in time with when they are reached.
+struct Roots {
   std::vector<StepState> states;
-  std::vector<double> costs;
+  std::vector<TimedState> timed;
 };
 
-Unrolled Unroll(const StepGraph& graph, const StepPlan& plan) {
-  Unrolled path{{plan.start}, {0.0}};
-  for (int k : plan.ks) {
-    path.states.push_back(graph.After(path.states.back(), k));
-    path.costs.push_back(path.costs.back() + graph.cost(k));
+Roots RootsOf(const StepPlan& plan, const PlanStates& path, size_t a,
+              const std::vector<StepState>& starts, const TimedEdges* edges) {
+  Roots roots;
+  if (edges == nullptr) {
+    roots.states = a == 0 ? starts : std::vector{path.states[a]};
+  } else if (a > 0) {
+    roots.timed = {plan.timed[a - 1].to};
+  } else {
+    for (const StepState& start : starts) {
+      if (const auto at = edges->Start(start)) roots.timed.push_back(*at);
+    }
   }
-  return path;
+  return roots;
 }
 
 // The stretch from state a to near state b (the last one: to the goal), cheaper than it was.
-std::optional<StepPlan> PlanStretch(const std::vector<StepState>& roots, const Unrolled& path,
-                                    size_t a, size_t b, const PoseCells& cells, StepGraph* graph,
-                                    PlanMonitor* monitor, std::mt19937_64& random) {
+std::optional<StepPlan> PlanStretch(const Roots& roots, const PlanStates& path, size_t a, size_t b,
+                                    const PoseCells& cells, StepGraph* graph, PlanMonitor* monitor,
+                                    TimedEdges* edges, std::mt19937_64& random) {
   constexpr double kRoom = 0.4;
   constexpr double kTowardsTarget = 0.6;
   const bool to_goal = b + 1 == path.states.size();
   TreeTarget target{.cost_limit = path.costs[b]};
   if (!to_goal) target.state = path.states[b];
-  StepTree tree(target, cells, graph, monitor);
+  StepTree tree(target, cells, graph, monitor, edges);
   StepTree::Growth growth = StepTree::Growth::kTrapped;
-  for (const StepState& root : roots) {
+  for (const StepState& root : roots.states) {
     if (growth != StepTree::Growth::kArrived) growth = tree.AddRoot(root, path.costs[a]);
+  }
+  for (const TimedState& root : roots.timed) {
+    if (growth != StepTree::Growth::kArrived) growth = tree.AddRoot(root);
   }
   Eigen::AlignedBox2d box(path.states[a].X_WS.Planar().position());
   box.extend(path.states[b].X_WS.Planar().position());
@@ -60,8 +69,32 @@ std::optional<StepPlan> PlanStretch(const std::vector<StepState>& roots, const U
   return tree.arrival();
 }
 
+// Adds an element to a plan that has come to `state`, if it is free.
+bool TakeElement(const StepState& state, int k, bool last, StepGraph* graph, TimedEdges* edges,
+                 StepPlan* plan) {
+  if (edges == nullptr) {
+    if (!graph->DownIsFree(state, k) || (!last && !graph->UpIsFree(state, k))) return false;
+    plan->ks.push_back(k);
+    plan->cost += graph->cost(k);
+    return true;
+  }
+  std::optional<TimedEdge> edge;
+  const TimedState& from = plan->timed.back().to;
+  if (last) {
+    edge = edges->Land(from, k);
+  } else if (const std::vector<TimedEdge> found = edges->Take(from, k); !found.empty()) {
+    edge = found.front();  // the earliest
+  }
+  if (!edge) return false;
+  plan->ks.push_back(k);
+  plan->timed.push_back(*edge);
+  plan->cost = last ? edges->CostOfLanding(*edge) : edges->CostOf(edge->to);
+  return true;
+}
+
 // From a state to the goal along old landings, each followed by the free element nearest to it.
-bool Follow(const Unrolled& path, size_t from, StepState state, StepGraph* graph, StepPlan* plan) {
+bool Follow(const PlanStates& path, size_t from, StepState state, StepGraph* graph,
+            TimedEdges* edges, StepPlan* plan) {
   std::vector<Foothold> landings;
   std::vector<std::pair<double, int>> order;
   for (size_t j = from + 1; j < path.states.size(); ++j) {
@@ -85,12 +118,9 @@ bool Follow(const Unrolled& path, size_t from, StepState state, StepGraph* graph
     constexpr size_t kTries = 10;
     if (order.size() > kTries) order.resize(kTries);
     const auto free = std::find_if(order.begin(), order.end(), [&](const auto& choice) {
-      return graph->DownIsFree(state, choice.second) &&
-             (last || graph->UpIsFree(state, choice.second));
+      return TakeElement(state, choice.second, last, graph, edges, plan);
     });
     if (free == order.end()) return false;
-    plan->ks.push_back(free->second);
-    plan->cost += graph->cost(free->second);
     state = {Nth(landings, free->second), Opposite(state.support)};
   }
   return true;
@@ -100,28 +130,33 @@ bool Follow(const Unrolled& path, size_t from, StepState state, StepGraph* graph
 
 std::optional<StepPlan> FindShortcut(const StepPlan& plan, const std::vector<StepState>& starts,
                                      const PoseCells& cells, StepGraph* graph, PlanMonitor* monitor,
-                                     std::mt19937_64& random) {
-  const Unrolled path = Unroll(*graph, plan);
+                                     TimedEdges* edges, std::mt19937_64& random) {
+  const PlanStates path = StatesOf(*graph, plan, edges);
   const int count = static_cast<int>(plan.ks.size());
   const int a = Pick(count, random);
   const int b = a + 1 + Pick(count - a, random);
   const auto ia = static_cast<size_t>(a), ib = static_cast<size_t>(b);
-  const std::vector<StepState> roots = a == 0 ? starts : std::vector{path.states[ia]};
-  const auto stretch = PlanStretch(roots, path, ia, ib, cells, graph, monitor, random);
+  const Roots roots = RootsOf(plan, path, ia, starts, edges);
+  const auto stretch = PlanStretch(roots, path, ia, ib, cells, graph, monitor, edges, random);
   if (!stretch) return std::nullopt;
   StepPlan candidate{.start = a == 0 ? stretch->start : plan.start,
                      .ks = {plan.ks.begin(), plan.ks.begin() + a},
                      .cost = stretch->cost};
   candidate.ks.insert(candidate.ks.end(), stretch->ks.begin(), stretch->ks.end());
+  if (edges != nullptr) {
+    candidate.timed.assign(plan.timed.begin(), plan.timed.begin() + a);
+    candidate.timed.insert(candidate.timed.end(), stretch->timed.begin(), stretch->timed.end());
+  }
   StepState state = stretch->start;
   for (int k : stretch->ks) state = graph->After(state, k);
-  if (b < count && !Follow(path, ib, state, graph, &candidate)) return std::nullopt;
+  if (b < count && !Follow(path, ib, state, graph, edges, &candidate)) return std::nullopt;
   return candidate;
 }
 
 bool TryShortcut(const StepPlan& plan, const std::vector<StepState>& starts, const PoseCells& cells,
-                 StepGraph* graph, PlanMonitor* monitor, std::mt19937_64& random) {
-  std::optional<StepPlan> found = FindShortcut(plan, starts, cells, graph, monitor, random);
+                 StepGraph* graph, PlanMonitor* monitor, TimedEdges* edges,
+                 std::mt19937_64& random) {
+  std::optional<StepPlan> found = FindShortcut(plan, starts, cells, graph, monitor, edges, random);
   return found && monitor->Offer(std::move(*found));
 }
 

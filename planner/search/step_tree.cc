@@ -1,6 +1,7 @@
 #include "planner/search/step_tree.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "wpg/elementary.h"
@@ -19,11 +20,12 @@ constexpr double kFaceForwardBeyond = 0.6;
 }  // namespace
 
 StepTree::StepTree(const TreeTarget& target, const PoseCells& cells, StepGraph* graph,
-                   PlanMonitor* monitor)
+                   PlanMonitor* monitor, TimedEdges* edges)
     : target_(target),
       cells_(cells),
       graph_(*graph),
       monitor_(*monitor),
+      edges_(edges),
       buckets_(graph->workspace()) {}
 
 bool StepTree::Hits(const StepState& from, const Foothold& X_WF) const {
@@ -41,15 +43,26 @@ double StepTree::LeastCostFrom(const StepState& state) const {
   return each * std::max(1.0, graph_.reach().Steps(left, 0.0));
 }
 
-void StepTree::Arrive(int index, int k) {
-  arrival_ = {.start = {}, .ks = {k}, .cost = 0.0};
-  arrival_.cost = Nth(nodes_, index).cost + graph_.cost(k);
+void StepTree::Arrive(int index, int k, double cost, const TimedEdge& edge) {
+  arrival_ = {.start = {}, .ks = {k}, .cost = cost, .timed = {edge}};
   for (; index >= 0; index = Nth(nodes_, index).parent) {
     const Node& node = Nth(nodes_, index);
     arrival_.start = node.state;
-    if (node.k >= 0) arrival_.ks.push_back(node.k);
+    if (node.k < 0) continue;
+    arrival_.ks.push_back(node.k);
+    arrival_.timed.push_back(node.edge);
   }
-  std::reverse(arrival_.ks.begin(), arrival_.ks.end());
+  std::ranges::reverse(arrival_.ks);
+  std::ranges::reverse(arrival_.timed);
+  if (edges_ == nullptr) arrival_.timed.clear();
+}
+
+// In time, states that may be kept until different times are not the same.
+std::uint64_t StepTree::KeyOf(const StepState& state, const TimedEdge& edge) const {
+  if (edges_ == nullptr) return cells_.KeyOf(state);
+  constexpr double kSameEnd = 0.25, kLate = 1e6;  // [s]
+  const auto end = static_cast<std::uint64_t>(std::min(edge.to.rest.end, kLate) / kSameEnd);
+  return cells_.KeyOf(state) ^ (end + 1) * 0x9e3779b97f4a7c15u;
 }
 
 StepTree::Edge StepTree::Try(int index, int k, const Foothold& X_WF) {
@@ -58,13 +71,14 @@ StepTree::Edge StepTree::Try(int index, int k, const Foothold& X_WF) {
   Nth(node.tried, k) = true;
   --node.untried;
   if (!graph_.Bears(X_WF)) return Edge::kUseless;
+  if (edges_ != nullptr) return TryInTime(index, k, X_WF);
   const StepState from = node.state, after{X_WF, Opposite(from.support)};
   const double cost = node.cost + graph_.cost(k);
   if (Hits(from, X_WF)) {
     if (cost >= target_.cost_limit) return Edge::kUseless;
     if (!graph_.DownIsFree(from, k)) return Edge::kBlocked;
     if (target_.state && !graph_.UpIsFree(from, k)) return Edge::kBlocked;
-    Arrive(index, k);
+    Arrive(index, k, cost);
     return Edge::kArrived;
   }
   if (!graph_.workspace().contains(X_WF.Planar().position()) ||
@@ -75,15 +89,61 @@ StepTree::Edge StepTree::Try(int index, int k, const Foothold& X_WF) {
   return Add(after, index, k, cost) == Growth::kArrived ? Edge::kArrived : Edge::kAdded;
 }
 
+StepTree::Edge StepTree::TryInTime(int index, int k, const Foothold& X_WF) {
+  const TimedState from = {Nth(nodes_, index).state, Nth(nodes_, index).edge.to.since,
+                           Nth(nodes_, index).edge.to.rest};
+  const bool hits = Hits(from.state, X_WF);
+  const StepState after{X_WF, Opposite(from.state.support)};
+  const double least =
+      Nth(nodes_, index).cost + graph_.cost(k) + (hits ? 0.0 : LeastCostFrom(after));
+  if (least >= target_.cost_limit) return Edge::kUseless;
+  if (hits && !target_.state) {
+    const auto edge = edges_->Land(from, k);
+    if (!edge) return Edge::kBlocked;
+    const double cost = edges_->CostOfLanding(*edge);
+    if (cost >= target_.cost_limit) return Edge::kUseless;
+    Arrive(index, k, cost, *edge);
+    return Edge::kArrived;
+  }
+  // Of a state that may be kept for good, the cell's own key is reached as well.
+  if (!hits && (!graph_.workspace().contains(X_WF.Planar().position()) ||
+                reached_.contains(cells_.KeyOf(after)))) {
+    return Edge::kUseless;
+  }
+  const std::vector<TimedEdge> edges = edges_->Take(from, k);
+  Edge grown = edges.empty() ? Edge::kBlocked : Edge::kUseless;
+  for (const TimedEdge& edge : edges) {
+    const double cost = edges_->CostOf(edge.to);
+    if (hits) {
+      if (cost >= target_.cost_limit) continue;
+      Arrive(index, k, cost, edge);
+      return Edge::kArrived;
+    }
+    if (cost + LeastCostFrom(edge.to.state) >= target_.cost_limit) continue;
+    const Growth growth = Add(edge.to.state, index, k, cost, edge);
+    if (growth == Growth::kArrived) return Edge::kArrived;
+    if (growth == Growth::kAdded) grown = Edge::kAdded;
+  }
+  return grown;
+}
+
 StepTree::Growth StepTree::AddRoot(const StepState& root, double cost) {
   return Add(root, -1, -1, cost);
 }
 
-StepTree::Growth StepTree::Add(const StepState& state, int parent, int k, double cost) {
-  if (!reached_.insert(cells_.KeyOf(state)).second) return Growth::kTrapped;
+StepTree::Growth StepTree::AddRoot(const TimedState& root) {
+  TimedEdge edge;
+  edge.to = root;
+  return Add(root.state, -1, -1, edges_->CostOf(root), edge);
+}
+
+StepTree::Growth StepTree::Add(const StepState& state, int parent, int k, double cost,
+                               const TimedEdge& edge) {
+  if (!reached_.insert(KeyOf(state, edge)).second) return Growth::kTrapped;
+  if (std::isinf(edge.to.rest.end)) reached_.insert(cells_.KeyOf(state));
   const auto count = static_cast<size_t>(graph_.size());
   const int index = static_cast<int>(nodes_.size());
-  nodes_.push_back({state, parent, k, cost, graph_.size(), std::vector<bool>(count, false)});
+  nodes_.push_back({state, parent, k, cost, graph_.size(), std::vector<bool>(count, false), edge});
   buckets_.Insert(index, state);
   monitor_.CountNode();
   return LookForTarget(index);

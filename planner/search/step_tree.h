@@ -36,15 +36,17 @@ struct TreeSample {
 /// which samples ask for them, and grows no further after the last.
 class StepTree {
  public:
-  /// `graph` and `monitor` are borrowed.
-  StepTree(const TreeTarget& target, const PoseCells& cells, StepGraph* graph,
-           PlanMonitor* monitor);
+  /// `graph` and `monitor` are borrowed, and in time `edges`; null: not in time.
+  StepTree(const TreeTarget& target, const PoseCells& cells, StepGraph* graph, PlanMonitor* monitor,
+           TimedEdges* edges = nullptr);
 
   /// What became of a sample: a node, none from that node, none from any node, or the target.
   enum class Growth { kAdded, kTrapped, kNothingLeft, kArrived };
 
   /// `cost` is that of getting to the root.
   Growth AddRoot(const StepState& root, double cost);
+  /// The same in time.
+  Growth AddRoot(const TimedState& root);
   /// Lets the node nearest to the sample land as near to it as it can. kNothingLeft: no node can
   /// step with that foot any more.
   Growth Grow(const TreeSample& sample);
@@ -65,20 +67,24 @@ class StepTree {
     double cost;
     int untried;
     std::vector<bool> tried;
+    TimedEdge edge;  // in time: how it was reached, and when
   };
   enum class Edge { kUseless, kBlocked, kAdded, kArrived };
 
   bool Hits(const StepState& from, const Foothold& X_WF) const;
   double LeastCostFrom(const StepState& state) const;
   Edge Try(int index, int k, const Foothold& X_WF);
-  Growth Add(const StepState& state, int parent, int k, double cost);
+  Edge TryInTime(int index, int k, const Foothold& X_WF);
+  std::uint64_t KeyOf(const StepState& state, const TimedEdge& edge) const;
+  Growth Add(const StepState& state, int parent, int k, double cost, const TimedEdge& edge = {});
   Growth LookForTarget(int index);
-  void Arrive(int index, int k);
+  void Arrive(int index, int k, double cost, const TimedEdge& edge = {});
 
   TreeTarget target_;
   PoseCells cells_;
   StepGraph& graph_;
   PlanMonitor& monitor_;
+  TimedEdges* edges_;
   std::vector<Node> nodes_;
   StateBuckets buckets_;
   std::unordered_set<std::uint64_t> reached_;

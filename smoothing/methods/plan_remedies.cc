@@ -139,7 +139,7 @@ class RemedySearch {
 
   // Farther or nearer on its way.
   std::vector<PlanChange> Landings(int step) const {
-    const auto& [up, X_WS] = Nth(plan_.sequence.half_steps, 2 * step);
+    const auto& [up, X_WS, rest] = Nth(plan_.sequence.half_steps, 2 * step);
     const Foothold from = X_WS * up.X_SF;
     const Foothold to = Nth(StanceAfter(plan_.sequence, 2 * step), Index(up.swing()));
     const Eigen::Vector2d way(to.x - from.x, to.y - from.y);

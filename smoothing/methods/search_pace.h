@@ -6,7 +6,7 @@
 namespace halfstep {
 
 /// Tells from what the rounds of a search gain when it is over. Source: smoothing/README.md,
-/// "Overlap program".
+/// "The search".
 class SearchPace {
  public:
   /// Of a search of at most `rounds` rounds, of which `poor_rounds` in a row may gain next to

@@ -34,7 +34,7 @@ WalkProblem::WalkProblem(HalfStepSequence sequence, std::shared_ptr<const Feasib
       fixed_(std::move(fixed)) {
   const std::string complaint = ComplaintAbout(*sequence_, fixed_);
   HALFSTEP_CHECK(complaint.empty(), complaint);
-  for (const auto& [half_step, X_WS] : sequence_->half_steps) {
+  for (const auto& [half_step, X_WS, rest] : sequence_->half_steps) {
     CheckBorne(*scene().ground, robot().sole_outline, X_WS);
     CheckBorne(*scene().ground, robot().sole_outline, X_WS * half_step.X_SF);
   }

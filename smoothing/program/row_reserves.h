@@ -8,7 +8,7 @@ namespace halfstep {
 /// What each row of a half-step and family keeps in reserve [of a slack's scale], > 0, for what
 /// lies between the instants that are watched and for what no proof can decide. It grows where a
 /// candidate needed more of it, and shrinks after candidates that were proved, so that one place
-/// that is hard to prove costs no time elsewhere. Source: smoothing/README.md, "Overlap program".
+/// that is hard to prove costs no time elsewhere. Source: smoothing/README.md, "The search".
 class RowReserves {
  public:
   /// What a candidate shows, by half-step and family (half-step·families + family).

@@ -41,7 +41,8 @@ struct HomotopyParameters {
   friend bool operator==(const HomotopyParameters&, const HomotopyParameters&) = default;
 };
 
-/// The planned motion, where the homotopy starts: Δ = 0, η = 1, all else as planned.
+/// The planned motion, where the homotopy starts: Δ = 0, or less where a rest is planned, η = 1,
+/// all else as planned.
 HomotopyParameters PlannedMotion(const HalfStepSequence& sequence);
 
 /// One parameter: its family, and its index there from 0.

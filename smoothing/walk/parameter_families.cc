@@ -19,7 +19,9 @@ using Choice = ParameterChoice;
 using Values = HomotopyParameters;
 
 // Ranges of what methods choose from. The planned value is in all of them.
-std::pair<double, double> Unbounded(const Row&, const Bounds&, double) { return {0.0, kInfinity}; }
+std::pair<double, double> UpFromPlanned(const Row&, const Bounds&, double planned) {
+  return {planned, kInfinity};
+}
 std::pair<double, double> UpToPlanned(const Row&, const Bounds& bounds, double planned) {
   return {bounds[0], planned};
 }
@@ -80,7 +82,7 @@ constexpr std::array<Row, kNumParameterFamilies> kRows = {{
      .most = kInfinity,
      .always = true,
      .key = "overlaps",
-     .range_of = Unbounded},
+     .range_of = UpFromPlanned},
     {.family = ParameterFamily::kHeightScale,
      .name = "height_scale",
      .of = kStep,

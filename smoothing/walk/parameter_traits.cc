@@ -26,6 +26,7 @@ double* ParameterFamilyTraits::number_of(HalfStep* half_step) const {
 }
 
 double ParameterFamilyTraits::planned(const HalfStepSequence& sequence, int index) const {
+  if (part == ParameterPart::kBegin) return 0.0 - Nth(sequence.half_steps, index + 1).rest;
   HalfStep half_step = Nth(sequence.half_steps, half_steps(index).first).half_step;
   const double* value = number_of(&half_step);
   return value != nullptr && !factor ? *value : unmoved;

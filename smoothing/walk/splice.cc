@@ -44,7 +44,7 @@ double AgreeUntil(const SuperposedWalk& a, const SuperposedWalk& b) {
 
 std::array<Foothold, 2> StanceAfter(const HalfStepSequence& sequence, int last) {
   HALFSTEP_CHECK(last >= 0 && last < sequence.size(), "half-step " << last);
-  const auto& [down, X_WS] = Nth(sequence.half_steps, last / 2 * 2 + 1);
+  const auto& [down, X_WS, rest] = Nth(sequence.half_steps, last / 2 * 2 + 1);
   std::array<Foothold, 2> feet;
   Nth(feet, Index(down.support)) = X_WS;
   Nth(feet, Index(down.swing())) = X_WS * down.X_SF;
@@ -82,6 +82,7 @@ WalkPlan Changed(const WalkPlan& walk, int last, const std::vector<Footstep>& fo
     down.half_step.kind = HalfStepKind::kDown;
     down.half_step.X_SF = down.X_WS.Inverse() * next->X_WF;
     down.half_step.duration = next->duration;
+    down.rest = next->rest_on_one_foot;
     sequence.half_steps.push_back(down);
     Nth(feet, Index(swing)) = next->X_WF;
     ++next;

@@ -155,7 +155,8 @@ def write_case(case, folder):
     (folder / "scene.yaml").write_text("\n".join(lines) + "\n")
     common = "robot: hrp2\nscene: scene.yaml\nsmoothing: {methods: [dichotomy]}\n"
     (folder / "plan.yaml").write_text(
-        "name: plan\n" + common + "goal: {x_m: 1.5, y_m: 0, radius_m: 0.15}\n")
+        "name: plan\n" + common + "goal: {x_m: 1.5, y_m: 0, radius_m: 0.15}\n"
+        "planner: {name: rrt}\n")
     (folder / "run.yaml").write_text(
         "name: run\n" + common + "footsteps:\n"
         "  - {foot: left, x_m: 0.1, y_m: 0.105}\n"

@@ -83,6 +83,9 @@ TEST(ExplainConfig, DefaultsAndKeysAreThoseOfAResolvedConfig) {
                                           "half_step.crouch_m",
                                           "goal.level",
                                           "planner.free_by",
+                                          "planner.moving",
+                                          "footsteps.N.rest_s",
+                                          "footsteps.N.rest_on_one_foot_s",
                                           "footsteps.N.z_m",
                                           "start.left.z_m",
                                           "start.right.z_m"};
@@ -91,6 +94,8 @@ TEST(ExplainConfig, DefaultsAndKeysAreThoseOfAResolvedConfig) {
   }
   config.goal.level = "floor";
   config.planner.free_by = "certificates";
+  config.planner.moving = "everywhere";
+  config.footsteps[0].rest = config.footsteps[0].rest_on_one_foot = 1.0;
   config.half_step.rise_begin = 0.5;
   config.half_step.rise_end = 0.9;
   config.half_step.crouch = 0.01;

@@ -11,6 +11,7 @@ needs a build tree of Ninja whose tests are built.
 import argparse
 import collections
 import concurrent.futures
+import csv
 import json
 import os
 import pathlib
@@ -262,32 +263,35 @@ def try_mutant(mutant, executables, expected, command):
     return Outcome(False, "", "", seconds)
 
 
-def cell(text):
-    text = " ".join(text.split())
-    return "`" + text.replace("|", "\\|") + "`" if text else "(nothing)"
+COLUMNS = ["mutant", "where", "line", "wrong_line", "noticed_by"]
 
 
-def table(mutants, outcomes):
-    lines = ["| mutant | where | line | wrong line | noticed by |", "|---|---|---|---|---|"]
+def rows(mutants, outcomes):
+    """One row a mutant, of COLUMNS; white space of the lines is one blank."""
     for m in mutants:
-        o = outcomes[m.name]
+        o = outcomes[m]
         by = f"{o.test}" + ("" if o.how == "fails" else f" ({o.how})")
         if not o.noticed:
-            by = "**survives**: " + (m.text(m.why) or "not explained")
-        lines.append(f"| {m.name} | {m.file}:{m.line} | {cell(m.text(m.old).replace('@@', ''))} | "
-                     f"{cell(m.text(m.new))} | {by} |")
-    shares = collections.defaultdict(lambda: [0, 0, 0])
+            by = "survives: " + (m.text(m.why) or "not explained")
+        texts = [m.text(m.old).replace("@@", ""), m.text(m.new), by]
+        yield [m.name, f"{m.file}:{m.line}", *(" ".join(text.split()) for text in texts)]
+
+
+def shares(mutants, outcomes):
+    """How many are noticed, by folder, as a table in Markdown."""
+    counts = collections.defaultdict(lambda: [0, 0, 0])
     for m in mutants:
         for key in (m.file.rpartition("/")[0], "all"):
-            shares[key][0] += 1
-            shares[key][1] += outcomes[m.name].noticed
-            shares[key][2] += not outcomes[m.name].noticed and bool(m.why)
-    head = ["| folder | mutants | noticed | share | survivors explained |", "|---|---|---|---|---|"]
-    for folder in sorted(shares, key=lambda f: (f == "all", f)):
-        count, noticed, explained = shares[folder]
-        head.append(f"| {folder} | {count} | {noticed} | {100 * noticed / count:.1f} % | "
-                    f"{explained} of {count - noticed} |")
-    return "\n".join(head) + "\n\n" + "\n".join(lines) + "\n"
+            counts[key][0] += 1
+            counts[key][1] += outcomes[m].noticed
+            counts[key][2] += not outcomes[m].noticed and bool(m.why)
+    lines = ["| folder | mutants | noticed | share | survivors explained |",
+             "|---|---|---|---|---|"]
+    for folder in sorted(counts, key=lambda f: (f == "all", f)):
+        count, noticed, explained = counts[folder]
+        lines.append(f"| {folder} | {count} | {noticed} | {100 * noticed / count:.1f} % | "
+                     f"{explained} of {count - noticed} |")
+    return "\n".join(lines)
 
 
 def main():
@@ -295,7 +299,7 @@ def main():
     parser.add_argument("--build", default=str(ROOT / "build/release"), help="tree of Ninja")
     parser.add_argument("--only", default="", help="regular expression on names and files")
     parser.add_argument("--list", action="store_true", help="check and print the list, run nothing")
-    parser.add_argument("--out", help="the table's file (default: standard output)")
+    parser.add_argument("--out", help="a CSV with a row for each mutant")
     parser.add_argument("--jobs", type=int, default=1, help="compilations and mutants at a time")
     options = parser.parse_args()
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
@@ -349,13 +353,12 @@ def main():
         return outcome
 
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        outcomes = dict(zip([m.name for m in chosen], pool.map(one, chosen)))
-    text = table(chosen, outcomes)
+        outcomes = dict(zip(chosen, pool.map(one, chosen)))
+    print(shares(chosen, outcomes))
     if options.out:
-        pathlib.Path(options.out).write_text(text)
-    else:
-        print(text)
-    lost = [m for m in chosen if not outcomes[m.name].noticed and not m.why]
+        with open(options.out, "w", newline="") as file:
+            csv.writer(file, lineterminator="\n").writerows([COLUMNS, *rows(chosen, outcomes)])
+    lost = [m for m in chosen if not outcomes[m].noticed and not m.why]
     if lost:
         sys.exit("not noticed and not explained: " + ", ".join(m.name for m in lost))
 

@@ -96,6 +96,10 @@ class Examples(unittest.TestCase):
         self.assertLess(number(r"mine/scale +proved, ([\d.]+)", told), 15.0)  # raw: 16 s
         self.assertIn("mine/scale", self.told_by("11_own_smoother", "list", "methods"))
 
+    def test_12(self):
+        heights = re.findall(r"([\d.]+)$", self.told_by("12_up_the_stairs"), re.M)
+        self.assertEqual(heights[-2:], ["0.10", "0.20"])
+
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1])

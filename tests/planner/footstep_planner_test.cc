@@ -344,7 +344,8 @@ TEST(Shortcut, EveryHalfStepOfAShortenedPlanIsFree) {
                    .ks = first.elements,
                    .cost = first.cost});
     while (!monitor.Stop()) {
-      TryShortcut(monitor.plans().back(), graph.FreeStarts(), {}, &graph, &monitor, random);
+      TryShortcut(monitor.plans().back(), graph.FreeStarts(), {}, &graph, &monitor, nullptr,
+                  random);
     }
     for (const StepPlan& plan : monitor.plans()) {
       StepState state = plan.start;

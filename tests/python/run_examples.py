@@ -34,6 +34,7 @@ CHECKS = {
     "09": lambda t: numbers(r"mm +([\d.]+) s", t) == sorted(numbers(r"mm +([\d.]+) s", t)),
     "10": lambda t: "mine" in t and t.rstrip().endswith("certified"),
     "11": lambda t: t.count("certified") == 2 and numbers(r"mine/scale +([\d.]+)", t)[0] < 15.0,
+    "12": lambda t: " 0.10\n" in t and " 0.20\n" in t and " s, certified" in t,
 }
 
 

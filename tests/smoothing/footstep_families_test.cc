@@ -18,7 +18,7 @@ constexpr std::array<ParameterFamily, 3> kMoves = {
 // Where the soles stand when all half-steps are done, and before each of them.
 std::vector<std::array<Foothold, 2>> Stances(const HalfStepSequence& sequence) {
   std::vector<std::array<Foothold, 2>> stances = {sequence.start};
-  for (const auto& [half_step, X_WS] : sequence.half_steps) {
+  for (const auto& [half_step, X_WS, rest] : sequence.half_steps) {
     std::array<Foothold, 2> soles;
     soles[static_cast<size_t>(Index(half_step.support))] = X_WS;
     soles[static_cast<size_t>(Index(half_step.swing()))] = X_WS * half_step.X_SF;

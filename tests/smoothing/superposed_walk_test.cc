@@ -124,7 +124,7 @@ TEST(SuperposedWalk, WithoutOverlapItIsTheConcatenationOfIsolatedHalfSteps) {
     const SuperposedWalk walk(sequence, PlannedMotion(sequence));
     double start = 0;
     for (int k = 0; k < sequence.size(); ++k) {
-      const auto& [h, X_WS] = sequence.half_steps[static_cast<size_t>(k)];
+      const auto& [h, X_WS, rest] = sequence.half_steps[static_cast<size_t>(k)];
       const HalfStepTracks tracks(h, *sequence.model);
       EXPECT_NEAR(walk.start_of(k), start, 1e-13);
       for (int n = 0; n < 20; ++n) {
@@ -242,7 +242,7 @@ TEST(SuperposedWalk, IsTheSumOverAllHalfSteps) {
       const double t = draw.Uniform(0, walk.duration());
       WalkJet sum;
       for (int k = 0; k < sequence.size(); ++k) {
-        auto [h, X_WS] = placed.half_steps[static_cast<size_t>(k)];
+        auto [h, X_WS, rest] = placed.half_steps[static_cast<size_t>(k)];
         h.duration = parameters.durations[static_cast<size_t>(k)];
         h.via_height *= parameters.height_scales[static_cast<size_t>(k / 2)];
         h.shape.support_point = parameters.support_points[static_cast<size_t>(k / 2)];

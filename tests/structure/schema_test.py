@@ -146,16 +146,18 @@ def controls_of_names(names):
 
 def controls_of_tables(schema):
     """Pages with one thing changed."""
-    smoothing, runs, robots = (
+    smoothing, runs, configs, episodes, robots = (
         (ROOT / page).read_text(encoding="utf-8")
-        for page in ("smoothing/README.md", "experiments/README.md", "wpg/README.md"))
+        for page in ("smoothing/README.md", "experiments/files.md", "experiments/config.md",
+                     "experiments/episodes.md", "wpg/README.md"))
     changes = [(smoothing, "| `via_lateral` | m |", "| `via_lateral` | s |"),
                (smoothing, "| `foot_ramp` |", "| `foot_rampe` |"),
                (smoothing, "| m | 0.01 | 0.005 |", "| m | 0.01 | 0.006 |"),
                (smoothing, "<!-- schema: margins -->", "<!-- schema: margin -->"),
-               (runs, "| `overlap_s` | Δ |\n", ""), (runs, "`left_foot_x_m` …", "`left_foot_y_m` …"),
-               (runs, "| `lambda` |", "| `lambda, lambda` |"), (runs, "`valid_until_s`", "`until_s`"),
-               (runs, "| `seed` | integer |", "| `seed` | number |"),
+               (runs, "`overlap_s`, ", ""), (runs, "`left_foot_x_m` …", "`left_foot_y_m` …"),
+               (runs, "`lambda` |", "`lambda, lambda` |"),
+               (episodes, "`valid_until_s`", "`until_s`"),
+               (configs, "| `seed` | integer |", "| `seed` | number |"),
                (robots, "` .sole_xyz`", "` .sole_xy`"), (robots, "| `hull_vertices` |", "| `hull` |")]
     told = []
     for page, old, new in changes:

@@ -8,7 +8,7 @@ namespace halfstep::verify {
 /// The program's plan in the words of verify.
 inline WalkPlan PlanOf(const HalfStepSequence& sequence) {
   WalkPlan plan{.start = sequence.start, .half_steps = {}};
-  for (const auto& [of, X_WS] : sequence.half_steps) {
+  for (const auto& [of, X_WS, rest] : sequence.half_steps) {
     plan.half_steps.push_back({{.up = of.kind == HalfStepKind::kUp,
                                 .support = of.support,
                                 .X_SF = of.X_SF,
@@ -25,7 +25,8 @@ inline WalkPlan PlanOf(const HalfStepSequence& sequence) {
                                          .rise_begin = of.shape.rise_begin,
                                          .rise_end = of.shape.rise_end},
                                 .crouch = of.shape.crouch},
-                               X_WS});
+                               X_WS,
+                               rest});
   }
   return plan;
 }

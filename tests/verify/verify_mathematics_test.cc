@@ -36,7 +36,7 @@ HalfStepSequence DrawSequence(std::mt19937* random) {
                    {{Side::kRight, level(right * DrawPlace(0.3, random)), 0.1, 1.2},
                     {Side::kLeft, level(left * DrawPlace(0.3, random)), 0.2, 1.5}},
                    0.2, {}, std::make_shared<Lipm>(0.8));
-  for (auto& [half_step, X_WS] : sequence.half_steps) {
+  for (auto& [half_step, X_WS, rest] : sequence.half_steps) {
     half_step.duration = Draw(0.3, 3, random);
     half_step.via_along = Draw(-0.1, 0.1, random);
     half_step.shape.shift = Draw(0.01, 0.5, random);
@@ -58,7 +58,7 @@ TEST(HalfStepMotion, IsTheProgramsHalfStep) {
     const HalfStepSequence sequence = DrawSequence(&random);
     const WalkPlan plan = PlanOf(sequence);
     for (size_t i = 0; i < plan.half_steps.size(); ++i) {
-      const auto& [half_step, X_WS] = sequence.half_steps[i];
+      const auto& [half_step, X_WS, rest] = sequence.half_steps[i];
       const HalfStepTracks tracks(half_step, *sequence.model, X_WS);
       const HalfStepMotion motion(plan.half_steps[i],
                                   dynamic_cast<const Lipm&>(*sequence.model).omega());

@@ -26,11 +26,11 @@ HalfStepSequence MakeSequence(const std::array<Foothold, 2>& start,
                        .via_height = footstep.via_height,
                        .via_lateral = via_lateral,
                        .shape = shape};
-    sequence.half_steps.push_back({half_step, X_WS});
+    sequence.half_steps.push_back({half_step, X_WS, footstep.rest});
     foot = footstep.X_WF;
     half_step.kind = HalfStepKind::kDown;
     half_step.X_SF = X_WS.Inverse() * foot;
-    sequence.half_steps.push_back({half_step, X_WS});
+    sequence.half_steps.push_back({half_step, X_WS, footstep.rest_on_one_foot});
   }
   return sequence;
 }
@@ -39,7 +39,7 @@ HalfStepSequence Mirrored(const HalfStepSequence& sequence) {
   HalfStepSequence mirrored = sequence;
   mirrored.start = {sequence.start[1].Mirrored(), sequence.start[0].Mirrored()};
   for (PlacedHalfStep& placed : mirrored.half_steps) {
-    placed = {placed.half_step.Mirrored(), placed.X_WS.Mirrored()};
+    placed = {placed.half_step.Mirrored(), placed.X_WS.Mirrored(), placed.rest};
   }
   return mirrored;
 }

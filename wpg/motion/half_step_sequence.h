@@ -18,15 +18,23 @@ struct Footstep {
   /// What follows holds for both half-steps of the step that leads here.
   double via_height = 0.25;  ///< [m]
   double duration = 2.0;     ///< T of each half-step [s]
+  /// How long the robot rests on both feet before the step begins [s] ≥ 0. Before the first step of
+  /// a walk it counts for nothing, since the walk begins with that step.
+  double rest = 0.0;
+  /// How long it rests on one foot before the other lands here [s] ≥ 0.
+  double rest_on_one_foot = 0.0;
 };
 
 /// A half-step placed in the world: X_WS is the pose of its support sole.
 struct PlacedHalfStep {
   HalfStep half_step;  ///< seen from its support sole
   Foothold X_WS;       ///< place of that sole, in W
+  /// How long the robot rests before it begins, as planned [s] ≥ 0; nothing for the first one.
+  double rest = 0.0;
 };
 
-/// A plan: half-steps 0 … n−1, alternately up and down, each beginning where the one before ends.
+/// A plan: half-steps 0 … n−1, alternately up and down, each beginning where the one before ends,
+/// at once or after a rest.
 /// Step j is made of half-steps 2j (up) and 2j + 1 (down).
 struct HalfStepSequence {
   std::array<Foothold, 2> start;           ///< soles at the start, by Index(Side); yaws unwrapped.

@@ -144,6 +144,25 @@ std::vector<ConvexBody> ShapesOf(const UrdfCollision& collision, const Isometry3
   return shapes;
 }
 
+// Calls `read`, which reads a shape of the body, and complains about what it throws; about a
+// package once.
+template <typename Read>
+void ReadShape(const UrdfTree& urdf, const UrdfCollision& collision, const std::string& body,
+               std::set<std::string>* missing, Complaints* complaints, const Read& read) {
+  const auto complain = [&](const std::string& line) {
+    complaints->Add(urdf.file, collision.place.line, collision.place.column, body, line);
+  };
+  try {
+    read();
+  } catch (const InputError& error) {
+    for (const std::string& line : error.complaints()) complain(line);
+  } catch (const MissingPackage& error) {
+    if (missing->insert(error.package).second) complain(error.what());
+  } catch (const std::runtime_error& error) {
+    complain(error.what());
+  }
+}
+
 // A hull with many vertices becomes one around it with fewer. A foot's stays on the floor.
 void Simplify(const BodyRequest& request, RobotBody* body) {
   Eigen::Matrix3Xd kept(3, 0);
@@ -172,6 +191,27 @@ std::vector<std::string> MeshPackages(const UrdfTree& urdf) {
   return {names.begin(), names.end()};
 }
 
+std::vector<ConvexBody> LinkShapes(const UrdfTree& urdf, int link,
+                                   const std::map<std::string, std::string>& packages,
+                                   bool dae_up_axis, Complaints* complaints) {
+  BodyRequest request;
+  request.packages = packages;
+  request.dae_up_axis = dae_up_axis;
+  std::vector<ConvexBody> all;
+  std::vector<InputFile> meshes;
+  std::set<std::string> missing;
+  const UrdfLink& of = Nth(urdf.links, link);
+  for (const UrdfCollision& collision : of.collisions) {
+    ReadShape(urdf, collision, of.name, &missing, complaints, [&] {
+      for (ConvexBody& shape :
+           ShapesOf(collision, collision.X_LinkShape, urdf.file, 1, request, &meshes)) {
+        all.push_back(std::move(shape));
+      }
+    });
+  }
+  return all;
+}
+
 LinkBodies BuildBodies(const UrdfTree& urdf, const BodyRequest& request, Complaints* complaints) {
   const std::vector<LinkAnchor> anchors =
       FindAnchors(urdf, request.waist, request.leg_joints, request.posture);
@@ -187,7 +227,7 @@ LinkBodies BuildBodies(const UrdfTree& urdf, const BodyRequest& request, Complai
         return link.name + (count == 0 ? "" : "#" + std::to_string(count + 1));
       };
       RobotBody body{.name = next_name(), .leg = anchor.leg, .link = anchor.link};
-      try {
+      ReadShape(urdf, collision, body.name, &missing, complaints, [&] {
         for (ConvexBody& shape : ShapesOf(
                  collision, anchor.X_AnchorLink * collision.X_LinkShape, urdf.file,
                  parts == request.mesh_parts.end() ? 1 : parts->second, request, &all.meshes)) {
@@ -206,18 +246,7 @@ LinkBodies BuildBodies(const UrdfTree& urdf, const BodyRequest& request, Complai
           all.links.push_back(static_cast<int>(i));
           ++count;
         }
-      } catch (const InputError& error) {
-        for (const std::string& line : error.complaints()) {
-          complaints->Add(urdf.file, collision.place.line, collision.place.column, body.name, line);
-        }
-      } catch (const MissingPackage& error) {
-        if (!missing.insert(error.package).second) continue;  // told already
-        complaints->Add(urdf.file, collision.place.line, collision.place.column, body.name,
-                        error.what());
-      } catch (const std::runtime_error& error) {
-        complaints->Add(urdf.file, collision.place.line, collision.place.column, body.name,
-                        error.what());
-      }
+      });
     }
   }
   return all;

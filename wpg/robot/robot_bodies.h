@@ -44,4 +44,10 @@ struct LinkBodies {
 /// cannot be read or have no volume, and about bodies that reach farther than `farthest`.
 LinkBodies BuildBodies(const UrdfTree& urdf, const BodyRequest& request, Complaints* complaints);
 
+/// The collision shapes of one link in its frame, a mesh as its convex hull: each contains the
+/// URDF's shape. `packages` and `dae_up_axis` as in BodyRequest, complaints as there.
+std::vector<ConvexBody> LinkShapes(const UrdfTree& urdf, int link,
+                                   const std::map<std::string, std::string>& packages,
+                                   bool dae_up_axis, Complaints* complaints);
+
 }  // namespace halfstep

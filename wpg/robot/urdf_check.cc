@@ -202,6 +202,7 @@ class Checker {
     if (const TiXmlElement* mimic = joint.FirstChildElement("mimic")) {
       found_.mimics[name] = AttributeOf(*mimic, "joint");
     }
+    if (AttributeOf(joint, "type") == "continuous") found_.continuous.insert(name);
     if (auto faults = RepairMotion(file_, name, &joint); !faults.empty()) {
       found_.joint_faults[name] = std::move(faults);
     }

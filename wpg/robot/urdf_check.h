@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,7 @@ struct UrdfFindings {
   /// Mistakes of a joint that only a leg's joint must not have, by joint: of its axis and limits,
   /// or that it mimics another one. Outside the legs it is held still.
   std::map<std::string, std::vector<std::string>> joint_faults;
+  std::set<std::string> continuous;           ///< joints that turn freely
   std::map<std::string, std::string> mimics;  ///< by moving joint, the one that it follows
   std::vector<std::string> warnings;  ///< what was repaired or left out, as complaints are written
   /// What is read of the file (PlainUrdf), with what was repaired, for urdfdom; "" when there are

@@ -107,6 +107,7 @@ UrdfJoint ToJoint(const urdf::Joint& joint, const UrdfFindings& found) {
     out.upper = joint.limits->upper;
     out.max_speed = joint.limits->velocity;
     out.max_effort = joint.limits->effort;
+    out.turns_freely = found.continuous.contains(joint.name);
   }
   return out;
 }

@@ -50,8 +50,9 @@ struct UrdfJoint {
   Eigen::Vector3d axis{1, 0, 0};                                    ///< unit, in the child's frame.
   double lower = 0.0;                                               ///< [rad]
   double upper = 0.0;                                               ///< [rad]
-  double max_speed = 0.0;                                           ///< [rad/s]
-  double max_effort = 0.0;                                          ///< [N m]; 0: not told
+  bool turns_freely = false;        ///< continuous: limited to one turn for legs alone
+  double max_speed = 0.0;           ///< [rad/s]
+  double max_effort = 0.0;          ///< [N m]; 0: not told
   std::string mimics;               ///< the joint that it follows; "": none
   std::vector<std::string> faults;  ///< for which it can be no joint of a leg: complaints
   UrdfPlace place;                  ///< for complaints

@@ -33,7 +33,7 @@ class Plan:
 
     ``status``: "solved", "no_plan", "start_blocked", "budget", "interrupted" or "refused";
     ``sentence`` says it in words; ``footsteps`` is a table (``foot``, ``x_m``, ``y_m``,
-    ``yaw_rad``), empty without a plan; ``wall`` is the time of the search [s]. True if solved.
+    ``z_m``, ``yaw_rad``), empty without a plan; ``wall`` is the time of the search [s]. True if solved.
     """
 
     def __init__(self, status: str, sentence: str, footsteps: Table, wall: float,
@@ -160,18 +160,14 @@ class Experiment:
         is under way and the fraction of it that is done. Ctrl-C ends it."""
         if not self.config.get("goal"):
             raise InputError("plan: the config has footsteps and no goal (valid: a `goal`)")
-        status, sentence, steps, start, wall = self._experiment.plan(_progress(progress))
+        status, sentence, steps, wall, config = self._experiment.plan(_progress(progress))
         table = Table({"foot": np.array([s[0] for s in steps], dtype=object),
                        **{name: np.array([s[i + 1] for s in steps], dtype=float)
-                          for i, name in enumerate(("x_m", "y_m", "yaw_rad"))}})
-        config = None
-        if steps:
-            config = self.config
-            del config["goal"]
-            config["start"] = {foot: _place(*pose) for foot, pose in zip(("left", "right"), start)}
-            config["footsteps"] = [{"foot": s[0], **_place(*s[1:])} for s in steps]
-            if self._scene is not None:
-                config["scene"] = None
+                          for i, name in enumerate(("x_m", "y_m", "z_m", "yaw_rad"))}})
+        if not steps:
+            config = None
+        elif self._scene is not None:
+            config["scene"] = None
         return Plan(status, sentence, table, wall, config, self._scene)
 
     def smooth(self, method: str = "dichotomy", progress: Progress | None = None,
@@ -250,10 +246,6 @@ class Experiment:
 
     def __repr__(self) -> str:
         return f"<halfstep.Experiment of {self.robot.name} in {self.scene.name}>"
-
-
-def _place(x: float, y: float, yaw: float) -> dict[str, float]:
-    return {"x_m": x, "y_m": y, "yaw_deg": math.degrees(yaw)}
 
 
 def _shipped_scene(scene: str) -> str:

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "experiments/checker/jointed_robot.h"
+#include "experiments/checker/trajectory.h"
+#include "planner/scene/scene.h"
+
+namespace halfstep::checker {
+
+/// What is asked of a trajectory.
+struct TrajectoryDemands {
+  double self_clearance = 0.0;              ///< between bodies of the robot [m] ≥ 0
+  double clearance = 0.0;                   ///< from obstacles [m] ≥ 0
+  std::optional<double> acceleration = {};  ///< of every joint, at most [rad/s²]; none: not asked
+  /// Pairs of links of which nothing is asked, beside neighbours.
+  std::vector<std::pair<std::string, std::string>> ignored = {};
+};
+
+/// A statement about one subject: for all t ∈ [0, end], or not.
+struct TrajectoryFinding {
+  /// What statements are about.
+  enum class Kind { kLimits, kSpeed, kAcceleration, kSelfClearance, kClearance };
+  Kind kind = Kind::kLimits;  ///< what it is about
+  std::string subject;        ///< "elbow", "forearm - shelf"
+  bool proved = false;        ///< at least `demanded` is kept, for all t
+  double demanded = 0.0;      ///< [rad, rad/s, rad/s², m]
+  /// Proved: no less is kept at any time. Else about what is kept at `at`, to be looked at.
+  double least = 0.0;
+  double at = 0.0;  ///< where the least is kept, or was not proved [s]
+  /// Of what is not proved: the least at the trajectory's own knots, as dense sampling at its rate
+  /// would see it.
+  std::optional<double> at_knots = {};
+};
+
+/// All findings, and what was not asked.
+struct TrajectoryCheck {
+  std::vector<TrajectoryFinding> findings;  ///< by kind, those that are not proved first
+  std::vector<std::string> not_covered;     ///< sentences
+  std::int64_t intervals = 0;               ///< of time that were looked at
+  bool stopped = false;                     ///< before all was looked at: nothing is proved
+
+  bool proved() const;  ///< all of it
+};
+
+/// Looks at every statement, in interval arithmetic. On [m − h, m + h] a pair of bodies keeps at
+/// least its gap along a direction at m less Σ |q_j(t) − q_j(m)|·reach_j (JointedRobot::Levers);
+/// where that is not enough the interval is halved (Prove). `scene`: its obstacles, at rest; a mesh
+/// counts as its convex hull. `progress(done)`, done ∈ [0, 1], says whether to go on. Throws
+/// InputError for obstacles that move or are clouds, and for names in `ignored` that are no links.
+/// Source: experiments/check.md.
+TrajectoryCheck CheckTrajectory(const Trajectory& trajectory, const JointedRobot& robot,
+                                const Scene& scene, const TrajectoryDemands& demands,
+                                const std::function<bool(double done)>& progress = {});
+
+}  // namespace halfstep::checker

@@ -1,0 +1,119 @@
+// Trajectories of files, and what `halfstep check` says of them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "experiments/checker/trajectory.h"
+#include "experiments/run/exit_status.h"
+#include "tests/checker/three_joint_arm.h"
+#include "tests/experiments/child_process.h"
+#include "tests/refusal_of.h"
+#include "tests/temporary_folder.h"
+
+namespace halfstep::checker {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+const JointNames kNames{.turning = {"shoulder", "elbow", "wrist"}, .others = {"gripper"}};
+
+Trajectory Read(const std::string& name, const std::string& text,
+                const std::optional<Interpolation>& interpolation = {}) {
+  const TemporaryFolder place;
+  return ReadTrajectory(WriteText(place / name, text), interpolation, kNames);
+}
+std::string Refused(const std::string& name, const std::string& text,
+                    const std::optional<Interpolation>& interpolation = {}) {
+  return RefusalOf([&] { Read(name, text, interpolation); });
+}
+
+TEST(Trajectory, OfCsvHasItsJointsInAnyOrder) {
+  const Trajectory read = Read(
+      "a.csv",
+      "t_s,q_elbow_rad,shoulder,com_x_m,elbow_vel,v_shoulder_rad_s\n0,1,2,9,3,4\n1,5,6,9,7,8\n");
+  EXPECT_THAT(read.joints, ElementsAre("elbow", "shoulder"));
+  EXPECT_THAT(read.unread, ElementsAre("com_x_m"));
+  EXPECT_EQ(read.interpolation, Interpolation::kCubic);
+  EXPECT_EQ(read.q(1, 0), 2.0);
+  EXPECT_EQ(read.v(0, 1), 7.0);
+  EXPECT_EQ(Read("a.csv", "t,wrist\n0,1\n1,2\n").interpolation, Interpolation::kLinear);
+}
+
+TEST(Trajectory, OfRosIsRead) {
+  const Trajectory read = Read("a.yaml", R"(header: {frame_id: ""}
+joint_names: [wrist, elbow]
+points:
+- {positions: [1, 2], velocities: [], time_from_start: {sec: 0, nanosec: 500000000}}
+- {positions: [3, 4], velocities: [], time_from_start: {secs: 2, nsecs: 0}}
+)");
+  EXPECT_THAT(read.times, ElementsAre(0.5, 2.0));
+  EXPECT_EQ(read.q(1, 1), 4.0);
+}
+
+TEST(Trajectory, MistakesAreTold) {
+  EXPECT_THAT(Refused("a.txt", ""), HasSubstr("is no trajectory (valid: .csv"));
+  EXPECT_THAT(Refused("a.csv", "x,wrist\n0,1\n1,1\n"), HasSubstr("the first column is no time"));
+  EXPECT_THAT(Refused("a.csv", "t,wrist\n0,1\n"), HasSubstr("fewer than two knots"));
+  EXPECT_THAT(Refused("a.csv", "t,wrist\n0,1\n0,1\n"), HasSubstr("knot 2: time 0 s"));
+  EXPECT_THAT(Refused("a.csv", "t,wirst\n0,1\n1,1\n"),
+              HasSubstr("names no revolute joint of the robot (valid: shoulder, elbow, wrist)"));
+  EXPECT_THAT(Refused("a.csv", "t,wrist,gripper\n0,1,0\n1,1,0\n"),
+              HasSubstr("gripper: is not revolute"));
+  EXPECT_THAT(Refused("a.csv", "t,wrist,elbow,elbow_vel\n0,1,0,0\n1,1,0,0\n"),
+              HasSubstr("wrist: has no velocity, as other joints have"));
+  EXPECT_THAT(Refused("a.csv", "t,wrist\n0,1\n1,1\n", Interpolation::kCubic),
+              HasSubstr("--interpolation cubic: the file has no velocities (valid: linear)"));
+  EXPECT_THAT(Refused("a.yaml",
+                      "joint_names: [wrist]\npoints:\n- {positions: [1, 2], "
+                      "time_from_start: 0}\n"),
+              HasSubstr("positions: 2 numbers (valid: one for each of the 1 joints)"));
+}
+
+TEST(CheckCommand, SaysWhatIsProvedAndWhatIsNot) {
+  const TemporaryFolder place;
+  WriteText(place / "arm.urdf", ArmText());
+  WriteText(place / "arm.csv", "t_s,shoulder\n0,-1\n2,1\n");
+  WriteText(place / "ball.yaml",
+            "obstacles:\n  - {name: ball, sphere: {radius_m: 0.05}, pose: {xyz: [0.9, 0, 0]}}\n");
+  const Outcome free = Halfstep(place.path(), {"check", "arm.csv", "--robot", "arm.urdf"});
+  EXPECT_EQ(free.status, kSuccess) << free.err;
+  EXPECT_THAT(free.out,
+              AllOf(HasSubstr("joint limits         proved for all t: 1, each by 1.5 rad"),
+                    HasSubstr("joints that stay at 0, for they are not told: elbow, wrist"),
+                    HasSubstr("there is no --scene")));
+  const Outcome touched =
+      Halfstep(place.path(), {"check", "arm.csv", "--robot", "arm.urdf", "--scene", "ball.yaml"});
+  EXPECT_EQ(touched.status, kFailed);
+  EXPECT_THAT(touched.out,
+              AllOf(HasSubstr("clearance            not proved: 1 of 3"),
+                    HasSubstr("hand - ball at 1.0000 s"), HasSubstr("no knot shows it")));
+  EXPECT_EQ(Halfstep(place.path(), {"check", "arm.csv", "--robot", "armm"}).status, kBadInput);
+}
+
+// A robot file says where meshes are.
+TEST(CheckCommand, TakesShippedRobotsByTheirNames) {
+  const TemporaryFolder place;
+  WriteText(place / "knee.csv", "t_s,RLEG_JOINT3\n0,0.5\n2,1\n");
+  const Outcome knee =
+      Halfstep(place.path(), {"check", "knee.csv", "--robot", "hrp2", "--scene", "bar_8cm"});
+  EXPECT_THAT(knee.out, AllOf(HasSubstr("joint speeds         proved for all t: 1"),
+                              HasSubstr("clearance            proved for all t: 22")));
+  EXPECT_EQ(knee.err, "");
+}
+
+// A hand that rests where it keeps exactly what is asked is not looked at for ever.
+TEST(CheckCommand, WhatRestsAtItsLimitEnds) {
+  const TemporaryFolder place;
+  WriteText(place / "arm.urdf", ArmText());
+  WriteText(place / "arm.csv", "t_s,shoulder\n0,0\n1000,0\n");
+  WriteText(place / "ball.yaml",
+            "obstacles:\n  - {name: ball, sphere: {radius_m: 0.05}, pose: {xyz: [0.9, 0, 0.2]}}\n");
+  const Outcome at = Halfstep(place.path(), {"check", "arm.csv", "--robot", "arm.urdf", "--scene",
+                                             "ball.yaml", "--clearance", "0.11", "--json"});
+  EXPECT_NE(at.status, kBadInput) << at.err;
+  EXPECT_THAT(at.out, HasSubstr("\"stopped\": false"));
+}
+
+}  // namespace
+}  // namespace halfstep::checker
