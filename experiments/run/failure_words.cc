@@ -42,6 +42,12 @@ bool IsNear(const Obstacle& obstacle, const std::vector<Refused>& refused, doubl
   });
 }
 
+// What no foot steps over, whatever its half-steps are.
+bool IsTooHigh(double top, const RobotModel& robot) {
+  constexpr double kMostOfLeg = 0.4;
+  return top >= kMostOfLeg * LegLengthOf(robot);
+}
+
 std::string Share(int of, size_t all) {
   return Formatted("%d of the %zu half-steps refused nearest to the goal", of, all);
 }
@@ -68,12 +74,12 @@ std::string NearestWords(const WatchedQuery& watched, const PlanRequest& request
                    watched.nearest(), begin);
 }
 
-std::string BlockingWords(const WatchedQuery& watched, const SweptVolumes& volumes,
-                          const Place& place, const MarginLimits& limits) {
+Hindrance FindBlocking(const WatchedQuery& watched, const SweptVolumes& volumes, const Place& place,
+                       const MarginLimits& limits) {
   constexpr size_t kAsked = 300;
   constexpr int kObstacles = 200;
   const std::vector<Refused> refused = SomeOf(watched.refused(), kAsked);
-  if (refused.empty()) return "";
+  if (refused.empty()) return {};
   const double no_step = limits.demanded_of(MarginFamily::kNoStep);
   const RobotMeasures measures = MeasuresOf(place.robot);
   const Scene bare = place.scene.Emptied();
@@ -95,25 +101,28 @@ std::string BlockingWords(const WatchedQuery& watched, const SweptVolumes& volum
   const int on_area = areas.no_step.empty()
                           ? 0
                           : CountMet(refused, {volumes, place.robot.sole_outline, areas, no_step});
-  if (on_area > most) return Share(on_area, refused.size()) + " land on no-step areas";
-  if (blocking == nullptr) return "";
-  std::string text = Share(most, refused.size()) + " meet " + Quote(blocking->name);
-  const std::string over =
-      NoHalfStepOver(*blocking, place.robot, volumes, limits.demanded_of(MarginFamily::kClearance));
-  if (!over.empty()) return text + "; " + over;
+  if (on_area > most) return {Share(on_area, refused.size()) + " land on no-step areas"};
+  if (blocking == nullptr) return {};
+  Hindrance found{Share(most, refused.size()) + " meet " + Quote(blocking->name)};
   const double top = BoundsOf(blocking->shape, blocking->X_WO).max().z();
   const double lift = volumes.set.prototype.via_height;
-  if (blocking->rests() && top >= lift) {
-    text += Formatted(
+  const std::string over =
+      NoHalfStepOver(*blocking, place.robot, volumes, limits.demanded_of(MarginFamily::kClearance));
+  if (!over.empty()) {
+    found.words += "; " + over;
+  } else if (blocking->rests() && top >= lift) {
+    found.words += Formatted(
         ", which is %.3g m high where feet rise to %.3g m: a way leads past it or there is none",
         top, lift);
+  } else {
+    return found;
   }
-  return text;
+  if (!IsTooHigh(top, place.robot)) found.in_the_way = blocking;
+  return found;
 }
 
-std::string DetourWords(const PlanRequest& request, const PlanResult& plan,
-                        const SweptVolumes& volumes, const Place& place,
-                        const MarginLimits& limits) {
+Hindrance FindDetour(const PlanRequest& request, const PlanResult& plan,
+                     const SweptVolumes& volumes, const Place& place, const MarginLimits& limits) {
   constexpr double kDetour = 1.25;
   const Eigen::Vector2d begin =
       MidFeet(request.start[0].Planar(), request.start[1].Planar()).position();
@@ -127,20 +136,21 @@ std::string DetourWords(const PlanRequest& request, const PlanResult& plan,
     way += (next - at).norm();
     at = next;
   }
-  if (way < kDetour * (at - begin).norm()) return "";
+  if (way < kDetour * (at - begin).norm()) return {};
   // Narrower than what a leg might step over, were it to step as far as it is long.
   const double narrow = LegLengthOf(place.robot);
   for (const Obstacle& obstacle : place.scene.obstacles) {
     if (!obstacle.rests()) continue;
     const Eigen::AlignedBox3d bounds = BoundsOf(obstacle.shape, obstacle.X_WO);
-    if (bounds.max().z() >= volumes.set.prototype.via_height) continue;
+    if (IsTooHigh(bounds.max().z(), place.robot)) continue;
     if (bounds.sizes().head<2>().minCoeff() > narrow) continue;
     if (!LiesAcross(FootprintOf(obstacle), begin, end)) continue;
+    if (bounds.max().z() >= volumes.set.prototype.via_height) return {"", &obstacle};
     const std::string over = NoHalfStepOver(obstacle, place.robot, volumes,
                                             limits.demanded_of(MarginFamily::kClearance));
-    if (!over.empty()) return over;
+    if (!over.empty()) return {over, &obstacle};
   }
-  return "";
+  return {};
 }
 
 }  // namespace halfstep

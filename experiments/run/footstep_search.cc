@@ -77,6 +77,11 @@ void Say(const std::string& more, PlannedWalk* walk) {
   if (!more.empty()) walk->plan.sentence += "; " + more;
 }
 
+void Say(const Hindrance& found, PlannedWalk* walk) {
+  Say(found.words, walk);
+  if (found.in_the_way != nullptr) walk->in_the_way = found.in_the_way->name;
+}
+
 }  // namespace
 
 Place Resting(const Place& place) { return {place.robot, RestingPart(place.scene)}; }
@@ -128,7 +133,7 @@ void SearchFootsteps(const FootstepSearch& search, const Place& place, const Pla
   walk->proof_effort += request.proofs();
   if (walk->plan.status == PlanStatus::kSolved) {
     if (search.volumes != nullptr) {
-      Say(DetourWords(request, walk->plan, *search.volumes, place, evaluator.limits()), walk);
+      Say(FindDetour(request, walk->plan, *search.volumes, place, evaluator.limits()), walk);
     }
     walk->config = WithFootsteps(config, request.start, walk->plan.footsteps, place);
     return;
@@ -138,7 +143,7 @@ void SearchFootsteps(const FootstepSearch& search, const Place& place, const Pla
     Say(NearestWords(watched, request), walk);
     if (search.volumes != nullptr) {
       const Place asked = walk->in_time ? Resting(place) : place;
-      Say(BlockingWords(watched, *search.volumes, asked, evaluator.limits()), walk);
+      Say(FindBlocking(watched, *search.volumes, asked, evaluator.limits()), walk);
     }
   }
   ExplainNoPlan(place, evaluator, walk);

@@ -7,6 +7,8 @@
 #include "experiments/run/crossing_fit.h"
 #include "experiments/run/half_step_table.h"
 #include "experiments/run/level_crossings.h"
+#include "experiments/run/obstacle_crossings.h"
+#include "experiments/run/obstacle_footprint.h"
 #include "wpg/files/text.h"
 #include "wpg/nth.h"
 
@@ -57,8 +59,7 @@ std::vector<int> Hopeless(std::vector<Fitted>* all, CrossingFit* fitting,
   constexpr double kHopeless = -0.5;  // slack of the best crossing
   std::vector<int> hopeless;
   for (const auto& [key, own] : all->front().kinds) {
-    if (std::ranges::any_of(*all,
-                            [k = key](const Fitted& f) { return f.kinds.at(k).fit > 0.0; })) {
+    if (std::ranges::any_of(*all, [k = key](const Fitted& f) { return f.kinds.at(k).fit > 0.0; })) {
       continue;
     }
     CrossingFit::OfKind best;
@@ -104,6 +105,31 @@ HalfStepForms FormsFor(const ExperimentConfig& config, const Place& place, int w
     if (std::ssize(found.forms) >= wanted) break;
     if (own_first && Differences(fitted.form, config.half_step).empty()) continue;
     found.forms.push_back(fitted.form);
+  }
+  return found;
+}
+
+FormsOverObstacle FormsOver(const ExperimentConfig& config, const RobotModel& robot,
+                            const Obstacle& obstacle, int wanted) {
+  Scene alone;
+  alone.obstacles = {obstacle};
+  CrossingFit fitting(config, robot, alone, DrawObstacleCrossings(config, robot, obstacle));
+  FormsOverObstacle found;
+  if (fitting.crossings().empty()) return found;
+  std::vector<std::pair<double, HalfStepConfig>> fits;
+  CrossingFit::OfKind nearest;
+  for (const HalfStepConfig& form :
+       TableOverObstacle(config.half_step, FootprintOf(obstacle).top, SizeOf(robot))) {
+    const double fit = fitting.Fit(form).begin()->second.fit;
+    if (fit > 0.0) fits.emplace_back(fit, form);
+    if (!fits.empty()) continue;
+    const CrossingFit::OfKind near = fitting.Nearest(form, 0);
+    if (nearest.of == nullptr || (near.of != nullptr && near.fit > nearest.fit)) nearest = near;
+  }
+  if (fits.empty() && nearest.of != nullptr) found.missed = fitting.Describe(nearest.missed);
+  std::ranges::stable_sort(fits, [](const auto& a, const auto& b) { return a.first > b.first; });
+  for (const auto& [fit, form] : fits) {
+    if (std::ssize(found.forms) < wanted) found.forms.push_back(form);
   }
   return found;
 }

@@ -26,4 +26,17 @@ struct HalfStepForms {
 /// Source: planner/README.md, "By certificates".
 HalfStepForms FormsFor(const ExperimentConfig& config, const Place& place, int wanted);
 
+/// Forms that lead over an obstacle that rests, on a flat floor.
+struct FormsOverObstacle {
+  std::vector<HalfStepConfig> forms;  ///< the most promising first; empty: none was found
+  std::string missed = {};            ///< what the nearest of them misses, where none was found
+};
+
+/// The `wanted` ≥ 1 most promising forms of HalfStepTable that lead over an obstacle, and its
+/// own not among them: those of which most of the stances astride it (DrawObstacleCrossings) keep
+/// at a few instants what is demanded, with nothing else in the scene. Nothing of it is proved.
+/// Source: planner/README.md, "Other half-steps".
+FormsOverObstacle FormsOver(const ExperimentConfig& config, const RobotModel& robot,
+                            const Obstacle& obstacle, int wanted);
+
 }  // namespace halfstep

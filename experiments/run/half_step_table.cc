@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "wpg/files/number_text.h"
 #include "wpg/robot/reference_leg.h"
@@ -9,9 +10,7 @@
 
 namespace halfstep {
 
-double SizeOf(const RobotModel& robot) {
-  return LegLengthOf(robot) / kLegOfHrp2;
-}
+double SizeOf(const RobotModel& robot) { return LegLengthOf(robot) / kLegOfHrp2; }
 
 std::vector<HalfStepConfig> HalfStepTable(const HalfStepConfig& own, double highest, double size) {
   std::vector<HalfStepConfig> table = {own};
@@ -38,6 +37,27 @@ std::vector<HalfStepConfig> HalfStepTable(const HalfStepConfig& own, double high
   }
   for (const double crouch : {0.0, 0.01}) {
     for (const double begin : {0.46, 0.5}) add(1.3, 0.02, crouch, 0.15, 0.6, begin, 0.85);
+  }
+  return table;
+}
+
+std::vector<HalfStepConfig> TableOverObstacle(const HalfStepConfig& own, double top, double size) {
+  std::vector<HalfStepConfig> table;
+  for (const double longer : {1.0, 1.3, 1.6, 2.0}) {
+    for (const double crouch : {0.0, 0.01, 0.02}) {
+      for (const double above : {0.02, 0.05}) {
+        for (const auto& [delay, lift] : {std::pair(0.15, 0.6), std::pair(0.19, 1.0)}) {
+          HalfStepConfig form = own;
+          form.duration = std::round(10.0 * std::min(6.0, own.duration * longer)) / 10.0;
+          form.zmp_shift = own.zmp_shift * form.duration / own.duration;
+          form.via_height = std::ceil(1e3 * (top + above * size) - 1e-6) / 1e3;
+          form.crouch = std::max(own.crouch, std::round(1e3 * crouch * size) / 1e3);
+          form.foot_delay = delay;
+          form.lift_share = lift;
+          table.push_back(form);
+        }
+      }
+    }
   }
   return table;
 }

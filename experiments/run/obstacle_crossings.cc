@@ -11,8 +11,8 @@
 
 namespace halfstep {
 
-std::vector<Crossing> DrawObstacleCrossings(const ExperimentConfig& config,
-                                            const RobotModel& robot, const Obstacle& obstacle) {
+std::vector<Crossing> DrawObstacleCrossings(const ExperimentConfig& config, const RobotModel& robot,
+                                            const Obstacle& obstacle) {
   constexpr int kWanted = 96, kTries = 20000, kYaws = 24;
   const ObstacleFootprint print = FootprintOf(obstacle);
   const double clearance = config.smoothing.limits.demanded_of(MarginFamily::kClearance);

@@ -12,7 +12,7 @@ namespace halfstep {
 /// (FootprintOf), drawn from the config's seed: pairs of soles of the config's step set, turned any
 /// way, of which one stands before the obstacle and one behind, both off it as `clearance` demands.
 /// 96 of them, fewer where 20,000 tries find no more; none: the obstacle is too deep for the set.
-std::vector<Crossing> DrawObstacleCrossings(const ExperimentConfig& config,
-                                            const RobotModel& robot, const Obstacle& obstacle);
+std::vector<Crossing> DrawObstacleCrossings(const ExperimentConfig& config, const RobotModel& robot,
+                                            const Obstacle& obstacle);
 
 }  // namespace halfstep

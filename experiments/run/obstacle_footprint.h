@@ -8,8 +8,8 @@ namespace halfstep {
 
 /// The rectangle around an obstacle seen from above whose first edge is shortest, of 72 directions.
 struct ObstacleFootprint {
-  Eigen::Vector2d across, along;  ///< unit vectors of W: over its narrower side, and along it
-  double near = 0.0, far = 0.0;   ///< its bounds on `across` [m]
+  Eigen::Vector2d across, along;   ///< unit vectors of W: over its narrower side, and along it
+  double near = 0.0, far = 0.0;    ///< its bounds on `across` [m]
   double left = 0.0, right = 0.0;  ///< its bounds on `along` [m]
   double top = 0.0;                ///< z of the obstacle's highest point in W [m]
   double depth() const { return far - near; }  ///< [m]

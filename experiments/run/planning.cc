@@ -170,6 +170,44 @@ void PlanByVolumes(const Place& place, const PlanningHooks& hooks, PlannedWalk* 
                   place, hooks, walk);
 }
 
+// Where half-steps of another form lead over what is in the way, plans with these as well: the
+// cheaper plan stays.
+void PlanOver(const ExperimentConfig& config, const Place& place, const PlanningHooks& hooks,
+              PlannedWalk* walk) {
+  constexpr int kMost = 2;
+  const auto obstacle = std::ranges::find(place.scene.obstacles, walk->in_the_way, &Obstacle::name);
+  const FormsOverObstacle found = FormsOver(config, place.robot, *obstacle, kMost);
+  const std::string name = Quote(walk->in_the_way);
+  if (found.forms.empty()) {
+    walk->plan.sentence += "; no other half-step that was tried leads over " + name;
+    if (!found.missed.empty()) walk->plan.sentence += ": " + found.missed;
+    return;
+  }
+  for (const HalfStepConfig& form : found.forms) {
+    PlannedWalk other{.config = config,
+                      .plan = {},
+                      .half_steps = {},
+                      .in_time = walk->in_time,
+                      .not_covered = walk->not_covered};
+    other.config.half_step = form;
+    try {
+      PlanByVolumes(place, hooks, &other);
+    } catch (const InputError&) {
+      continue;  // none of these half-steps is certified
+    }
+    if (hooks.stop.stop_requested()) return;
+    if (other.plan.status != PlanStatus::kSolved) continue;
+    if (walk->plan.status == PlanStatus::kSolved && other.plan.cost >= walk->plan.cost) continue;
+    other.changed_half_step = Differences(form, config.half_step);
+    other.plan.sentence += ", over " + name + " with half_step: {" + other.changed_half_step + "}";
+    *walk = std::move(other);
+    return;
+  }
+  walk->plan.sentence += "; with half-steps that may lead over " + name + " (half_step: {" +
+                         Differences(found.forms.front(), config.half_step) +
+                         "}) no better plan was found";
+}
+
 }  // namespace
 
 PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
@@ -202,6 +240,9 @@ PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
     PlanByForms(place, hooks, &walk);
   } else {
     PlanByVolumes(place, hooks, &walk);
+    if (!walk.in_the_way.empty() && !walk.on_levels) {
+      PlanOver(config, place, hooks, &walk);
+    }
   }
   return walk;
 }

@@ -27,7 +27,10 @@ struct PlannedWalk {
   std::vector<std::string> inputs = {};
   /// The set that was searched, with its swept volumes where these said what is free.
   BakedHalfSteps half_steps;
-  /// The keys of half_step that differ from the config's, since its own do not cross the ground.
+  /// An obstacle that the set's half-steps do not lead over: a way around it was found, or none.
+  std::string in_the_way = {};
+  /// The keys of half_step that differ from the config's, since its own do not cross the ground, or
+  /// an obstacle.
   std::string changed_half_step = {};
   double proof_effort = 0.0;  ///< of half-steps that were called free by proofs (Work::effort)
   bool on_levels = false;     ///< whether the scene's ground has levels, so that heights are told
