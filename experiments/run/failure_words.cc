@@ -14,7 +14,9 @@
 namespace halfstep {
 namespace {
 
-using Refused = WatchedQuery::Refused;
+constexpr size_t kAsked = 300;  // half-steps that one obstacle is asked about
+
+using Refused = AskedHalfStep;
 
 // At most `most` of them, evenly.
 std::vector<Refused> SomeOf(const std::vector<Refused>& all, size_t most) {
@@ -76,9 +78,8 @@ std::string NearestWords(const WatchedQuery& watched, const PlanRequest& request
 
 Hindrance FindBlocking(const WatchedQuery& watched, const SweptVolumes& volumes, const Place& place,
                        const MarginLimits& limits) {
-  constexpr size_t kAsked = 300;
   constexpr int kObstacles = 200;
-  const std::vector<Refused> refused = SomeOf(watched.refused(), kAsked);
+  const std::vector<Refused> refused = SomeOf(watched.refused().all(), kAsked);
   if (refused.empty()) return {};
   const double no_step = limits.demanded_of(MarginFamily::kNoStep);
   const RobotMeasures measures = MeasuresOf(place.robot);
@@ -119,6 +120,30 @@ Hindrance FindBlocking(const WatchedQuery& watched, const SweptVolumes& volumes,
   }
   if (!IsTooHigh(top, place.robot)) found.in_the_way = blocking;
   return found;
+}
+
+std::string MovingWords(const WatchedTimes& watched, const SweptVolumes& volumes,
+                        const Place& place) {
+  const std::vector<Refused> refused = SomeOf(watched.refused().all(), kAsked);
+  Scene alone = place.scene.Emptied();
+  int most = 0;
+  const Obstacle* blocking = nullptr;
+  for (const Obstacle& obstacle : place.scene.obstacles) {
+    if (obstacle.rests()) continue;
+    alone.obstacles = {obstacle};
+    const int met = CountMet(refused, {volumes, place.robot.sole_outline, alone});
+    if (met <= most) continue;
+    most = met;
+    blocking = &obstacle;
+  }
+  if (blocking == nullptr) return "";
+  const std::string text =
+      Formatted("of %zu half-steps near the goal that are not always free %d meet the way of ",
+                refused.size(), most) +
+      Quote(blocking->name);
+  const auto& waypoints = blocking->motion.waypoints;
+  if (blocking->motion.speed > 0.0 || waypoints.empty()) return text;
+  return text + Formatted(", which rests from %.4g s on", waypoints.back().t);
 }
 
 Hindrance FindDetour(const PlanRequest& request, const PlanResult& plan,

@@ -30,6 +30,11 @@ struct Hindrance {
 Hindrance FindBlocking(const WatchedQuery& watched, const SweptVolumes& volumes, const Place& place,
                        const MarginLimits& limits);
 
+/// The same in time, of what moves: what is in the way of most half-steps near the goal that are
+/// not free at all times. "": nothing is.
+std::string MovingWords(const WatchedTimes& watched, const SweptVolumes& volumes,
+                        const Place& place);
+
 /// Of a plan that was found and is a quarter longer than the straight way: what lies across that,
 /// low and narrow as it is, because no half-step of the set leads over it.
 Hindrance FindDetour(const PlanRequest& request, const PlanResult& plan,

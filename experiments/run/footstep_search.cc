@@ -1,6 +1,7 @@
 #include "experiments/run/footstep_search.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "experiments/run/certified_half_steps.h"
 #include "experiments/run/failure_words.h"
@@ -97,11 +98,13 @@ void SearchFootsteps(const FootstepSearch& search, const Place& place, const Pla
 
   const GoalRegion goal = GoalOn(config.goal, ground);
   const WatchedQuery watched(search.query, goal);
+  std::optional<WatchedTimes> watched_times;
+  if (search.times != nullptr) watched_times.emplace(*search.times, goal);
   PlanRequest request{.start = StartOf(config, place.robot, ground),
                       .goal = goal,
                       .set = search.set,
                       .query = watched,
-                      .times = search.times,
+                      .times = watched_times ? &*watched_times : nullptr,
                       .cost = config.planner.Cost(walk->in_time),
                       .ground = search.ground};
   if (HasLevels(ground) && !search.ground) {
@@ -144,6 +147,7 @@ void SearchFootsteps(const FootstepSearch& search, const Place& place, const Pla
     if (search.volumes != nullptr) {
       const Place asked = walk->in_time ? Resting(place) : place;
       Say(FindBlocking(watched, *search.volumes, asked, evaluator.limits()), walk);
+      if (watched_times) Say(MovingWords(*watched_times, *search.volumes, place), walk);
     }
   }
   ExplainNoPlan(place, evaluator, walk);

@@ -1,8 +1,27 @@
 #include "experiments/run/watched_query.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace halfstep {
+namespace {
+
+bool IsEver(const TimeIntervals& times) {
+  return times.size() == 1 && times[0].begin <= 0.0 && std::isinf(times[0].end);
+}
+
+}  // namespace
+
+void NearestRefused::Add(int i, bool up, Side support, const Foothold& X_WS) {
+  constexpr size_t kKept = 1000;
+  const double left = Left(X_WS);
+  if (left > farthest_kept_) return;
+  all_.push_back({i, up, support, X_WS, left});
+  if (all_.size() < 2 * kKept) return;
+  std::ranges::stable_sort(all_, {}, &AskedHalfStep::left);
+  all_.resize(kKept);
+  farthest_kept_ = all_.back().left;
+}
 
 bool WatchedQuery::DownIsFree(int i, Side support, const Foothold& X_WS) const {
   return Note(query_.DownIsFree(i, support, X_WS), false, i, support, X_WS);
@@ -13,17 +32,23 @@ bool WatchedQuery::UpIsFree(int i, Side support, const Foothold& X_WS) const {
 }
 
 bool WatchedQuery::Note(bool free, bool up, int i, Side support, const Foothold& X_WS) const {
-  const double left = goal_.Distance(X_WS.Planar().position());
-  nearest_ = std::min(nearest_, left);
-  if (free || left > farthest_kept_) return free;
-  constexpr size_t kKept = 1000;
-  refused_.push_back({i, up, support, X_WS, left});
-  if (refused_.size() == 2 * kKept) {
-    std::ranges::stable_sort(refused_, {}, &Refused::left);
-    refused_.resize(kKept);
-    farthest_kept_ = refused_.back().left;
-  }
+  nearest_ = std::min(nearest_, refused_.Left(X_WS));
+  if (!free) refused_.Add(i, up, support, X_WS);
   return free;
+}
+
+TimeIntervals WatchedTimes::DownStarts(int i, Side support, const Foothold& X_WS,
+                                       const Foothold& X_WF) const {
+  TimeIntervals times = times_.DownStarts(i, support, X_WS, X_WF);
+  if (!IsEver(times)) refused_.Add(i, false, support, X_WS);
+  return times;
+}
+
+TimeIntervals WatchedTimes::UpStarts(int i, Side support, const Foothold& X_WS,
+                                     const Foothold& X_WF) const {
+  TimeIntervals times = times_.UpStarts(i, support, X_WS, X_WF);
+  if (!IsEver(times)) refused_.Add(i, true, support, X_WS);
+  return times;
 }
 
 }  // namespace halfstep

@@ -5,25 +5,44 @@
 
 #include "planner/search/goal_region.h"
 #include "planner/search/half_step_query.h"
+#include "planner/search/half_step_times.h"
 #include "wpg/geometry/foothold.h"
 
 namespace halfstep {
+
+/// A half-step that a planner asked about.
+struct AskedHalfStep {
+  int element = 0;             ///< of the set
+  bool up = false;             ///< its up half-step, else the one down
+  Side support = Side::kLeft;  ///< as HalfStepQuery::DownIsFree has it
+  Foothold X_WS;               ///< as HalfStepQuery::DownIsFree has it
+  double left = 0.0;           ///< from that sole to the goal [m]
+};
+
+/// Of half-steps that a planner was refused, those that begin nearest to the goal.
+class NearestRefused {
+ public:
+  explicit NearestRefused(const GoalRegion& goal) : goal_(goal) {}
+
+  /// From the support sole to the goal [m].
+  double Left(const Foothold& X_WS) const { return goal_.Distance(X_WS.Planar().position()); }
+  void Add(int i, bool up, Side support, const Foothold& X_WS);
+  /// At least the 1000 nearest, if there are so many.
+  const std::vector<AskedHalfStep>& all() const { return all_; }
+
+ private:
+  GoalRegion goal_;
+  double farthest_kept_ = std::numeric_limits<double>::infinity();
+  std::vector<AskedHalfStep> all_;
+};
 
 /// Answers as another query does, and remembers what a planner came to: for telling why it found no
 /// way. To be asked by one thread.
 class WatchedQuery : public HalfStepQuery {
  public:
-  /// A half-step that was not free.
-  struct Refused {
-    int element = 0;             ///< of the set
-    bool up = false;             ///< its up half-step, else the one down
-    Side support = Side::kLeft;  ///< as DownIsFree has it
-    Foothold X_WS;               ///< as DownIsFree has it
-    double left = 0.0;           ///< from that sole to the goal [m]
-  };
-
   /// `query` is borrowed.
-  WatchedQuery(const HalfStepQuery& query, const GoalRegion& goal) : query_(query), goal_(goal) {}
+  WatchedQuery(const HalfStepQuery& query, const GoalRegion& goal)
+      : query_(query), refused_(goal) {}
 
   bool DownIsFree(int i, Side support, const Foothold& X_WS) const override;
   bool UpIsFree(int i, Side support, const Foothold& X_WS) const override;
@@ -32,17 +51,44 @@ class WatchedQuery : public HalfStepQuery {
   /// The least distance to the goal of a supporting sole that was asked about [m]; ∞: there was
   /// none.
   double nearest() const { return nearest_; }
-  /// Half-steps that were not free, of those the ones that began nearest to the goal: at most 1000.
-  const std::vector<Refused>& refused() const { return refused_; }
+  /// Half-steps that were not free.
+  const NearestRefused& refused() const { return refused_; }
 
  private:
   bool Note(bool free, bool up, int i, Side support, const Foothold& X_WS) const;
 
   const HalfStepQuery& query_;
-  GoalRegion goal_;
   mutable double nearest_ = std::numeric_limits<double>::infinity();
-  mutable double farthest_kept_ = std::numeric_limits<double>::infinity();
-  mutable std::vector<Refused> refused_;
+  mutable NearestRefused refused_;
+};
+
+/// The same of times.
+class WatchedTimes : public HalfStepTimes {
+ public:
+  /// `times` is borrowed.
+  WatchedTimes(const HalfStepTimes& times, const GoalRegion& goal)
+      : times_(times), refused_(goal) {}
+
+  TimeIntervals DownStarts(int i, Side support, const Foothold& X_WS,
+                           const Foothold& X_WF) const override;
+  TimeIntervals UpStarts(int i, Side support, const Foothold& X_WS,
+                         const Foothold& X_WF) const override;
+  TimeIntervals OnBothFeet(int i, Side support, const Foothold& X_WS,
+                           const Foothold& X_WF) const override {
+    return times_.OnBothFeet(i, support, X_WS, X_WF);
+  }
+  TimeIntervals OnOneFoot(Side support, const Foothold& X_WS) const override {
+    return times_.OnOneFoot(support, X_WS);
+  }
+  double settled() const override { return times_.settled(); }
+  double effort() const override { return times_.effort(); }
+
+  /// Half-steps that are not free at some time.
+  const NearestRefused& refused() const { return refused_; }
+
+ private:
+  const HalfStepTimes& times_;
+  mutable NearestRefused refused_;
 };
 
 }  // namespace halfstep

@@ -71,6 +71,19 @@ TEST(PlanWords, ADitchIsToldAsNoStepArea) {
               HasSubstr(" half-steps refused nearest to the goal land on no-step areas"));
 }
 
+TEST(PlanWords, WhatMovesIsNamedWithTheTimeFromWhichItRests) {
+  const TemporaryFolder place;
+  const std::string sentence = SentenceOf(
+      place,
+      "obstacles: [{name: cart, box: {size_m: [0.3, 3, 0.8]}, pose: {xyz: [0.6, 4, 0.4]},\n"
+      "             motion: {waypoints: [{t_s: 2, xyz: [0.6, 0, 0.4]}]}}]\n",
+      "0.2");
+  EXPECT_THAT(sentence, HasSubstr("; of "));
+  EXPECT_THAT(sentence, HasSubstr(" half-steps near the goal that are not always free "));
+  EXPECT_THAT(sentence, HasSubstr(" meet the way of 'cart', which rests from 2 s on"));
+  EXPECT_THAT(sentence, Not(HasSubstr("half-steps refused nearest")));
+}
+
 TEST(PlanWords, TheKeyThatEndedTheSearchIsNamed) {
   const TemporaryFolder place;
   const std::string wall = Bar("0.02", "1");

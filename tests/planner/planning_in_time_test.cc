@@ -17,11 +17,12 @@ namespace {
 
 constexpr double kTick = 0.25;  // [s]
 
-// Bands of x that are shut for some times, which are multiples of kTick. Soles at rest or at their
-// via points must not be in them then.
+// Bands of x, as far as `y_min`, that are shut for some times, which are multiples of kTick. Soles
+// at rest or at their via points must not be in them then.
 struct ShutBand {
   double x_min, x_max;
   TimeInterval shut;
+  double y_min = -10.0;
 };
 
 class BandTimes : public HalfStepTimes {
@@ -32,25 +33,29 @@ class BandTimes : public HalfStepTimes {
   TimeIntervals DownStarts(int i, Side support, const Foothold& X_WS,
                            const Foothold& X_WF) const override {
     const Pose2 via = X_WS.Planar() * set_.Down(i, support).via();
-    return Open({X_WS.x, via.x, X_WF.x}, set_.prototype.duration);
+    return Open({X_WS.Planar(), via, X_WF.Planar()}, set_.prototype.duration);
   }
   TimeIntervals UpStarts(int i, Side support, const Foothold& X_WS,
                          const Foothold& X_WF) const override {
     const Pose2 via = X_WF.Planar() * set_.Up(i, support).via();
-    return Open({X_WS.x, via.x, X_WF.x}, set_.prototype.duration);
+    return Open({X_WS.Planar(), via, X_WF.Planar()}, set_.prototype.duration);
   }
   TimeIntervals OnBothFeet(int, Side, const Foothold& X_WS, const Foothold& X_WF) const override {
-    return Open({X_WS.x, X_WF.x}, 0.0);
+    return Open({X_WS.Planar(), X_WF.Planar()}, 0.0);
   }
-  TimeIntervals OnOneFoot(Side, const Foothold& X_WS) const override { return Open({X_WS.x}, 0.0); }
+  TimeIntervals OnOneFoot(Side, const Foothold& X_WS) const override {
+    return Open({X_WS.Planar()}, 0.0);
+  }
   double settled() const override { return 100.0; }
 
  private:
   // When something that takes `lasts` may begin.
-  TimeIntervals Open(const std::vector<double>& xs, double lasts) const {
+  TimeIntervals Open(const std::vector<Pose2>& soles, double lasts) const {
     TimeIntervals open = {{}};
     for (const ShutBand& band : bands_) {
-      if (std::ranges::none_of(xs, [&](double x) { return x > band.x_min && x < band.x_max; })) {
+      if (std::ranges::none_of(soles, [&](const Pose2& sole) {
+            return sole.x > band.x_min && sole.x < band.x_max && sole.y > band.y_min;
+          })) {
         continue;
       }
       TimeIntervals rest;
@@ -232,6 +237,26 @@ TEST(PlanningInTime, ArrivesAsEarlyAsABruteSearchInTimeAndNeverWhereItIsShut) {
   EXPECT_GT(trees, 15);
   EXPECT_GT(rested, 10);
   EXPECT_GT(none, 0);
+}
+
+// Around a door that opens soon one comes earlier, and in time for a door that shuts for good.
+TEST(PlanningInTime, WhoCameFirstInTheSearchDoesNotHideWhoComesEarlier) {
+  StepSet set = FewSteps();
+  set.placements.push_back(Foothold::Level({0.0, -0.4, 0.0}));
+  const FlatQuery query(set, {});
+  int solved = 0;
+  for (double opens = 20.0; opens <= 26.0; opens += 2.0) {
+    const BandTimes times(set, {{0.25, 0.45, {0.0, opens}, -0.5}, {0.55, 0.75, {opens, INFINITY}}});
+    PlanRequest request = RequestAlong(set, query, times);
+    request.workspace = {Eigen::Vector2d(-0.5, -1.4), Eigen::Vector2d(1.3, 0.6)};
+    const double earliest = EarliestByTicks(request);
+    for (const char* planner : {"astar", "best"}) {
+      const PlanResult plan = PlanBy(planner, request);
+      EXPECT_EQ(plan.status == PlanStatus::kSolved, std::isfinite(earliest)) << planner << opens;
+    }
+    solved += std::isfinite(earliest);
+  }
+  EXPECT_GT(solved, 0);
 }
 
 TEST(PlanningInTime, TheSameRequestGivesTheSamePlanAndShutNowhereTheUntimedOne) {
