@@ -170,8 +170,8 @@ void PlanByVolumes(const Place& place, const PlanningHooks& hooks, PlannedWalk* 
                   place, hooks, walk);
 }
 
-// Where half-steps of another form lead over what is in the way, plans with these as well: the
-// cheaper plan stays.
+// Where half-steps of another form lead over what is in the way, plans with these as well, by their
+// proofs, for which nothing is baked: the cheaper plan stays.
 void PlanOver(const ExperimentConfig& config, const Place& place, const PlanningHooks& hooks,
               PlannedWalk* walk) {
   constexpr int kMost = 2;
@@ -183,6 +183,7 @@ void PlanOver(const ExperimentConfig& config, const Place& place, const Planning
     if (!found.missed.empty()) walk->plan.sentence += ": " + found.missed;
     return;
   }
+  const Place resting = walk->in_time ? Resting(place) : place;
   for (const HalfStepConfig& form : found.forms) {
     PlannedWalk other{.config = config,
                       .plan = {},
@@ -190,11 +191,7 @@ void PlanOver(const ExperimentConfig& config, const Place& place, const Planning
                       .in_time = walk->in_time,
                       .not_covered = walk->not_covered};
     other.config.half_step = form;
-    try {
-      PlanByVolumes(place, hooks, &other);
-    } catch (const InputError&) {
-      continue;  // none of these half-steps is certified
-    }
+    PlanByCertificates(place, resting, hooks, &other);
     if (hooks.stop.stop_requested()) return;
     if (other.plan.status != PlanStatus::kSolved) continue;
     if (walk->plan.status == PlanStatus::kSolved && other.plan.cost >= walk->plan.cost) continue;
