@@ -6,7 +6,7 @@ set -eu
 packages="g++ cmake ninja-build git pkg-config libeigen3-dev libfcl-dev liboctomap-dev liburdfdom-dev
   libconsole-bridge-dev libtinyxml-dev libpng-dev libyaml-cpp-dev libqhull-dev libsleef-dev libcli11-dev
   nlohmann-json3-dev libboost-dev libssl-dev libgtest-dev libgmock-dev libbenchmark-dev
-  coinor-libipopt-dev libnlopt-dev libceres-dev pybind11-dev python3-dev python3-numpy $*"
+  libcairo2-dev fonts-liberation coinor-libipopt-dev libnlopt-dev libceres-dev pybind11-dev python3-dev python3-numpy $*"
 
 # For the report; a node from elsewhere does as well.
 command -v npm >/dev/null || packages="$packages nodejs npm"

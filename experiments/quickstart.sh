@@ -6,7 +6,7 @@ cd "$(dirname "$0")/.."
 
 echo "Installs the Debian packages that are missing, builds into build/ (about 10 minutes on two"
 echo "cores), runs six scenarios into runs/. It asks for nothing."
-experiments/install_dependencies.sh gnuplot-nox
+experiments/install_dependencies.sh
 
 echo "Building (log: build/quickstart.log)"
 mkdir -p build
@@ -30,6 +30,7 @@ for scenario in fig3_two_half_steps fig4_raw_sequence fig5_box bar_5cm bar_8cm b
   header=0
 done
 
-gnuplot -e "run='runs/fig4_raw_sequence'" notebooks-data/plot_walk.gp
+build/release/experiments/halfstep plot runs/fig4_raw_sequence runs/fig4_raw_sequence.pdf \
+  --what walk,zmp --method raw,dichotomy --overwrite --quiet
 printf '\nResults: runs/<scenario>/, in a browser: runs/<scenario>/report.html.\n'
-printf 'Figure: runs/fig4_raw_sequence/walk.png\n'
+printf 'Figure: runs/fig4_raw_sequence.pdf\n'

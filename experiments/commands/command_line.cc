@@ -87,6 +87,10 @@ constexpr CommandEntry kEntries[] = {
      "Write a run's report anew: one HTML file that shows its walks.\n\n"
      "  example: halfstep report runs/bar_8cm --out bar_8cm.html",
      DeclareReport},
+    {"plot",
+     "Draw a figure for a paper: of a run, a comparison or a sweep.\n\n"
+     "  example: halfstep plot runs/bar_8cm --what walk,zmp --method raw,dichotomy bar_8cm.pdf",
+     DeclarePlot},
     {"export",
      "Write the walks of a run in other programs' formats.\n\n"
      "  example: halfstep export runs/bar_8cm --format hrpsys --method dichotomy\n"

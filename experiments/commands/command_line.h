@@ -63,6 +63,7 @@ CommandAction DeclareVerify(CLI::App* app, const Toolbox& tools);
 CommandAction DeclareSweep(CLI::App* app, const Toolbox& tools);
 CommandAction DeclareExplain(CLI::App* app, const Toolbox& tools);
 CommandAction DeclareReport(CLI::App* app, const Toolbox& tools);
+CommandAction DeclarePlot(CLI::App* app, const Toolbox& tools);
 CommandAction DeclareExport(CLI::App* app, const Toolbox& tools);
 CommandAction DeclareReplay(CLI::App* app, const Toolbox& tools);
 CommandAction DeclareList(CLI::App* app, const Toolbox& tools);

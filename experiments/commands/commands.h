@@ -8,6 +8,7 @@
 #include "experiments/checker/check_trajectory.h"
 #include "experiments/config/toolbox.h"
 #include "experiments/export/whole_trajectory.h"
+#include "experiments/plot/plot.h"
 #include "experiments/replay/simulated_robot.h"
 #include "experiments/report/walk_video.h"
 #include "experiments/run/exit_status.h"
@@ -204,6 +205,19 @@ struct ReportCommand {
 /// Throws InputError for a run that cannot be read, also when robot or scene are no longer those of
 /// the run; std::runtime_error when this build has no page, or no browser draws the video.
 ExitStatus Report(const ReportCommand& command);
+
+struct PlotCommand {
+  plot::PlotRequest request;
+  std::string out;         ///< the file, which ends in .pdf, .svg or .png
+  bool overwrite = false;  ///< replaces it when it is there
+  bool quiet = false;
+  Toolbox tools = {};  ///< that configs may name
+};
+
+/// `halfstep plot`: a figure of a run, a comparison or a sweep (plot/plot.h). kFailed where this
+/// build cannot draw. Throws InputError as FigureOf, std::runtime_error when the file is there
+/// already or cannot be written.
+ExitStatus Plot(const PlotCommand& command);
 
 struct PlanCommand {
   std::string config;

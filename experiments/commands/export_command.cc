@@ -5,7 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "experiments/build_info.h"
+#include "experiments/about/build_info.h"
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/command_mistake.h"
 #include "experiments/commands/commands.h"

@@ -240,7 +240,7 @@ ExitStatus Live(const LiveCommand& command) {
   std::optional<ProgressBar> bar;
   bar.emplace("episode", silent);
   EpisodeJournal journal(folder.path(), config, command.run.overwrite);
-  interrupt.Keep();
+  interrupt.Keep("halfstep recover " + folder.path().string());
   const TrueWorld seen = simulated ? simulated->SeenByRobot() : truth;
   StandInSensor sensor(seen, config.live, static_cast<std::uint64_t>(config.experiment.seed) + 1);
   const auto on_tick = [&](const EpisodeTick& tick) {

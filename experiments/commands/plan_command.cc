@@ -61,6 +61,7 @@ void PrintPlan(const PlannedWalk& walk) {
             << plan.effort() + walk.proof_effort << ", " << std::setprecision(1) << 1e3 * plan.time
             << " ms\n"
             << std::defaultfloat << std::setprecision(6)
+            << (walk.detour.empty() ? "" : "# " + walk.detour + "\n")
             << NotCoveredText(walk.not_covered, "--json", "# ");
   if (!walk.changed_half_step.empty()) {
     std::cout << "half_step: {" << walk.changed_half_step << "}\n";

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "experiments/build_info.h"
+#include "experiments/about/build_info.h"
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/command_mistake.h"
 #include "experiments/commands/printable_stream.h"

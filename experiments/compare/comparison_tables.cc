@@ -4,7 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "experiments/build_info.h"
+#include "experiments/about/build_info.h"
 #include "experiments/tables/csv_writer.h"
 #include "experiments/tables/not_covered_json.h"
 #include "wpg/files/text.h"

@@ -150,7 +150,7 @@ void DeclarePlanner(Fields& fields, PlannerConfig* c) {
   fields.Text("cost", &c->cost,
               {.meaning = "of a plan; the last is an estimate, which plans in time cannot have",
                .choices = NamesOf(kCosts),
-               .otherwise = "of `best` smoothed_duration, in time raw_duration; else steps",
+               .otherwise = "smoothed_duration of `best` (in time raw_duration), else steps",
                .left_out_empty = true});
   fields.Text(
       "free_by", &c->free_by,

@@ -42,9 +42,9 @@ struct PlannerConfig {
   PlannerOptions options;         ///< of the planner by that name
   Planners known = Planners::Standard();  ///< those that `name` may name
 
-  /// The cost that plans are compared by, and its name; `in_time`: of plans in time.
+  /// The cost that plans are compared by; `in_time`: of plans in time.
   StepCost Cost(bool in_time = false) const;
-  std::string CostName(bool in_time = false) const;
+  std::string CostName(bool in_time = false) const;  ///< its name
   /// When a plan is good enough.
   Termination Enough() const;
 };

@@ -35,6 +35,7 @@ struct ExecutedWalk {
   double asked = 0.0;                          ///< when the replanner began to work on it [s]
   double measured = 0.0;                       ///< t_m of the world that it was made for [s]
   double check_s = 0.0, plan_s = 0.0, smooth_s = 0.0;  ///< of computing [s]
+  double effort = 0.0;  ///< of computing, as counted (Work::effort)
 };
 
 /// A permission to begin half-steps.
@@ -53,10 +54,10 @@ struct BegunHalfStep {
 /// How an episode ended.
 enum class EpisodeEnding {
   kArrived,       ///< at rest in the goal, and nothing happens any more
-  kStuck,         ///< at rest elsewhere when the time was up
+  kStuck,         ///< at rest elsewhere when the time was up, and not by a command
   kTooLong,       ///< walking when the time was up
   kNoPlan,        ///< there was no walk to begin with
-  kEnded,         ///< a client ended it
+  kEnded,         ///< a client ended it, or the time was up when it rested as commanded
   kInterrupted,   ///< stopped from outside
   kFell,          ///< the simulated robot fell
   kUncontrolled,  ///< there were no more commands for the simulated robot

@@ -4,7 +4,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "experiments/build_info.h"
+#include "experiments/about/build_info.h"
 #include "experiments/live/episode_report.h"
 #include "experiments/live/episode_tables.h"
 #include "experiments/live/promise_words.h"

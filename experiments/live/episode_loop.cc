@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 #include <utility>
-#include <vector>
 
 #include "experiments/live/near_rest.h"
 #include "wpg/files/text.h"
@@ -11,10 +10,9 @@
 namespace halfstep {
 namespace {
 
-constexpr int kTries = 3;       // to find a shorter way, after each clear change of the world
-constexpr double kRetry = 0.2;  // after a search that found no way [s]
-constexpr double kLongestRetry = 3.2;  // the same when the robot rests in much the same world [s]
-constexpr double kPause = 1.0;  // the same before the walk, when the world is much the same [s]
+constexpr int kTries = 3;  // to find a shorter way, after each clear change of the world
+// After a search that found no way, when the robot rests in much the same world [s].
+constexpr double kLongestRetry = 3.2;
 constexpr double kAhead = 0.3;  // proofs are renewed so long before they are needed [s]
 
 }  // namespace
@@ -39,6 +37,7 @@ Episode EpisodeLoop::Run(const std::array<Foothold, 2>& start) {
   executor_.emplace(first.plan, first.grant);
   asked_about_ = checked_ = world_;
   HandOver(first, 0.0);
+  TellCommand(0.0, nullptr);
   Begins(0);
   for (long tick = 0;; ++tick) {
     const double now = static_cast<double>(tick) * options_.period;
@@ -55,73 +54,18 @@ Episode EpisodeLoop::Run(const std::array<Foothold, 2>& start) {
   }
 }
 
-Proposal EpisodeLoop::Wait(const std::array<Foothold, 2>& start) {
-  std::mt19937_64 random(static_cast<std::uint64_t>(replanner_.config().experiment.seed));
-  std::vector<World> worlds;
-  PastWorlds past;
-  std::optional<World> tried;
-  Proposal first{.kind = ProposalKind::kUnsafe, .reason = "nothing was measured"};
-  double origin = 0.0, lead = clock_.passes() ? patience_ : 0.0, pause = kPause;
-  clock_.Begin();
-  for (long frame = 0; first.kind == ProposalKind::kUnsafe; ++frame) {
-    // A search may have taken the time of many frames.
-    frame = std::max(frame, static_cast<long>(clock_.Time(0.0) / options_.sensing.period));
-    const double now = static_cast<double>(frame) * options_.sensing.period;
-    if (now > options_.longest || IsToEnd()) break;
-    clock_.WaitUntil(now);
-    if (hooks_.on_wait) hooks_.on_wait(first.reason);
-    while (std::optional<Frame> taken = sensor_.Next(now)) {
-      if (!taken->world) continue;
-      World& measured = *taken->world;
-      if (!worlds.empty()) {
-        measured = Updated(worlds.back(), past, std::move(measured), options_).world;
-      }
-      past.Add(measured);
-      worlds.push_back(std::move(measured));
-    }
-    if (worlds.empty()) continue;
-    if (tried) {
-      // In a world that is much the same a search finds what another did not, but not often.
-      const bool differs = DiffersClearly(*tried, worlds.back());
-      if (now < tried->measured_at + (differs ? kRetry : pause)) continue;
-      pause = differs ? kPause : 2.0 * pause;
-    }
-    tried = worlds.back();
-    origin = now + lead;
-    world_ = std::make_shared<const World>(Since(worlds.back(), origin));
-    // Overlaps are found while the robot walks, unless time stands still.
-    const int junctions = clock_.passes() ? 0 : options_.smooth_ahead;
-    first = replanner_.Begin(start, *replanner_.Prepare(*world_), junctions, random);
-    const double ready = clock_.Time(now);
-    if (clock_.passes()) lead = std::max(patience_, 1.5 * (ready - now));
-    if (first.kind == ProposalKind::kUnsafe || ready <= origin) continue;
-    // It should have begun already.
-    first = {.kind = ProposalKind::kUnsafe, .reason = "to find a walk took too long"};
-    tried.reset();
-  }
-  if (first.kind != ProposalKind::kUnsafe) clock_.WaitUntil(origin);
-  clock_.Begin();
-  sensor_.Begin(origin);
-  record_.waited = origin;
-  // What obstacles may do at t = 0 follows from where they were before.
-  for (World& world : worlds) {
-    record_.worlds.push_back(Since(std::move(world), origin));
-    record_.known.push_back(record_.worlds.back().measured_at);
-    past_.Add(record_.worlds.back());
-  }
-  return first;
-}
-
 void EpisodeLoop::Sense(double now) {
   while (std::optional<Frame> frame = sensor_.Next(now)) {
     if (!frame->world) {
       Tell(now, "lost", Formatted("frame of %.3f s", frame->taken));
       continue;
     }
+    const std::shared_ptr<const Course> before = world_->course;
     WorldUpdate update = Updated(*world_, past_, std::move(*frame->world), options_);
     world_ = std::make_shared<const World>(std::move(update.world));
     Know(now);
     Tell(now, "measured", Formatted("frame of %.3f s", frame->taken));
+    TellCommand(now, before);
     for (const Contradiction& one : update.contradictions) {
       Tell(now, "contradicted", one.Text());
     }
@@ -202,6 +146,8 @@ void EpisodeLoop::Ask(double now) {
                 .now = now,
                 .hand_over = now + patience_ + 2.0 * options_.period,
                 .world = asked_about_,
+                .course = course_,
+                .refused = refused_,
                 .shorten = tries_ > 0,
                 .used_up = used_up_});
   thinking_ = true;
@@ -213,22 +159,31 @@ void EpisodeLoop::Take(const Proposal& proposal, double now) {
   thinking_ = false;
   const bool differs = DiffersClearly(*checked_, *asked_about_);
   if (differs) tries_ = kTries;
-  const bool in_vain = stuck_ && executor_->stopped() && !differs;
+  const bool at_end = world_->course && executor_->rests_from() <= now;
+  const bool in_vain = stuck_ && (executor_->stopped() || at_end) && !differs;
   retry_ = in_vain ? std::min(2.0 * retry_, kLongestRetry) : kRetry;
   checked_ = asked_about_;
-  stuck_ = proposal.kind == ProposalKind::kUnsafe;
+  stuck_ = proposal.kind == ProposalKind::kUnsafe && !proposal.refuses;
   const bool used_up = proposal.nodes >= replanner_.config().experiment.planner.max_nodes;
   used_up_ = stuck_ && used_up ? used_up_ + 1 : 0;
   const bool searched = proposal.planned.status != PlanStatus::kNotRun;
   if (world_->sound_since > asked_about_->version) {
     Tell(now, "refused", "the world has changed meanwhile");
     again_ = true;
-  } else if (proposal.first_changed < 0 || stuck_) {
+  } else if (proposal.first_changed < 0 || stuck_ || proposal.refuses) {
     if (stuck_) Tell(now, "unsafe", proposal.reason, proposal.grant.through);
+    if (proposal.refuses) {
+      Tell(now, "refused", proposal.reason);
+      refused_ = asked_about_->course->number;
+      again_ = true;
+    } else if (!stuck_) {
+      course_ = proposal.course;
+    }
     robot_through_ = proposal.robot_through;
     executor_->Take(proposal.grant);
     record_.grants.push_back({now, walk(), proposal.grant});
-    if (searched && !stuck_ && --tries_ > 0) again_ = true;
+    const bool shortens = !asked_about_->course;
+    if (searched && shortens && !stuck_ && --tries_ > 0) again_ = true;
   } else {
     again_ = true;
     const std::string refused = executor_->TakeOver(proposal.plan, proposal.grant, now);
@@ -244,6 +199,7 @@ void EpisodeLoop::Take(const Proposal& proposal, double now) {
 void EpisodeLoop::HandOver(const Proposal& proposal, double now) {
   smoothed_ = proposal.smoothed;
   robot_through_ = proposal.robot_through;
+  course_ = proposal.course;
   record_.walks.push_back({.t = now,
                            .kind = proposal.kind,
                            .reason = proposal.reason,
@@ -253,7 +209,8 @@ void EpisodeLoop::HandOver(const Proposal& proposal, double now) {
                            .measured = asked_about_->measured_at,
                            .check_s = proposal.check_s,
                            .plan_s = proposal.plan_s,
-                           .smooth_s = proposal.smooth_s});
+                           .smooth_s = proposal.smooth_s,
+                           .effort = proposal.effort});
   record_.grants.push_back({now, walk(), proposal.grant});
   Tell(now, "handed_over", std::string(Name(proposal.kind)) + ": " + proposal.reason,
        proposal.first_changed);
@@ -266,25 +223,34 @@ bool EpisodeLoop::Ends(double now) {
   const std::array<Foothold, 2> stance =
       StanceAfter(executor_->plan().sequence, executor_->begun());
   const bool on_both = executor_->begun() % 2 == 1;
-  const bool arrived =
-      at_rest && on_both && now > sensor_.QuietFrom() && world_->goal.ContainsStance(stance);
+  const bool arrived = at_rest && on_both && !world_->course && now > sensor_.QuietFrom() &&
+                       world_->goal.ContainsStance(stance);
   const bool fell = hooks_.fallen && hooks_.fallen();
   const std::string lost = hooks_.lost ? hooks_.lost() : "";
   if (!arrived && !over && !ended && !fell && lost.empty()) return false;
   if (!lost.empty()) record_.message = lost;
   if (fell) record_.message = Formatted("the robot fell at %.3f s", now);
-  record_.ending = fell            ? EpisodeEnding::kFell
-                   : !lost.empty() ? EpisodeEnding::kUncontrolled
-                   : arrived       ? EpisodeEnding::kArrived
-                   : !ended        ? (at_rest ? EpisodeEnding::kStuck : EpisodeEnding::kTooLong)
+  record_.ending = fell                           ? EpisodeEnding::kFell
+                   : !lost.empty()                ? EpisodeEnding::kUncontrolled
+                   : arrived                      ? EpisodeEnding::kArrived
+                   : !ended                       ? (!at_rest         ? EpisodeEnding::kTooLong
+                                                     : world_->course ? EpisodeEnding::kEnded
+                                                                      : EpisodeEnding::kStuck)
                    : hooks_.stop.stop_requested() ? EpisodeEnding::kInterrupted
                                                   : EpisodeEnding::kEnded;
   if (record_.ending == EpisodeEnding::kEnded) {
-    record_.message = "a client ended it, and the robot has come to rest";
+    record_.message = ended ? "a client ended it, and the robot has come to rest"
+                            : "the time was up, and the robot rests as it was commanded";
   }
   record_.end = now;
   record_.stopped = executor_->stopped();
   return true;
+}
+
+void EpisodeLoop::TellCommand(double t, const std::shared_ptr<const Course>& before) {
+  const std::shared_ptr<const Course>& now = world_->course;
+  if ((before ? before->number : 0) == (now ? now->number : 0)) return;
+  Tell(t, "commanded", now ? now->Text() : "walk to the goal");
 }
 
 void EpisodeLoop::Know(double t) {

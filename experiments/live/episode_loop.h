@@ -27,6 +27,8 @@ class EpisodeLoop {
   Episode Run(const std::array<Foothold, 2>& start);
 
  private:
+  static constexpr double kRetry = 0.2;  // after a search that found no way [s]
+
   // Measures until there is a walk, and until it begins, at the time that is t = 0 from then on.
   Proposal Wait(const std::array<Foothold, 2>& start);
   // Takes in the frames that have arrived by now.
@@ -43,6 +45,8 @@ class EpisodeLoop {
   // Whether the robot is to come to rest for good.
   bool IsToEnd() const { return hooks_.stop.stop_requested() || hooks_.ended.stop_requested(); }
   void Know(double t);
+  // Tells that another course is commanded than `before`, if it is.
+  void TellCommand(double t, const std::shared_ptr<const Course>& before);
   void Tell(double t, const std::string& what, const std::string& text, int half_step = -1);
   int walk() const { return static_cast<int>(record_.walks.size()) - 1; }
 
@@ -59,6 +63,8 @@ class EpisodeLoop {
   // Of the walk in execution.
   std::vector<bool> smoothed_;
   int robot_through_ = -1;
+  std::shared_ptr<const Course> course_;
+  int refused_ = 0;  // number of a list of footsteps
   bool held_ = false;
   std::string awaited_;
   // What the thinker does.

@@ -167,6 +167,8 @@ void ReadWalks(const Tables& tables, const LiveConfig& config, const Place& plac
                             measured = table.Numbers("measured_s"),
                             check = timings.Numbers("check_s"), plan = timings.Numbers("plan_s"),
                             smooth = timings.Numbers("smooth_s");
+  const std::vector<double> effort =
+      timings.Has("effort") ? timings.Numbers("effort") : std::vector<double>(check.size());
   const std::vector<int> first = Integers(table, "first_changed");
   const std::vector<std::string> kinds = table.Texts("kind"), reasons = table.Texts("reason");
   if (check.size() < t.size()) throw InputError({timings.path + ": has fewer rows than plans.csv"});
@@ -180,7 +182,8 @@ void ReadWalks(const Tables& tables, const LiveConfig& config, const Place& plac
                               .measured = measured[k],
                               .check_s = check[k],
                               .plan_s = plan[k],
-                              .smooth_s = smooth[k]});
+                              .smooth_s = smooth[k],
+                              .effort = effort[k]});
   }
 }
 

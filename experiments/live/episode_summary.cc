@@ -31,13 +31,18 @@ EpisodeSummary Summarize(const Episode& episode, const TrueWorld* truth, const R
   summary.ending = Name(episode.ending);
   summary.duration = episode.end;
   summary.half_steps = static_cast<int>(episode.begun.size());
+  const bool is_commanded = CountOf(episode, "commanded") > 0;
   for (size_t k = 1; k < episode.walks.size(); ++k) {
     const ExecutedWalk& walk = episode.walks[k];
     if (walk.kind == ProposalKind::kShortened) ++summary.shortened;
     if (walk.kind == ProposalKind::kSmoothed) ++summary.smoothed;
     if (walk.kind == ProposalKind::kResumed) ++summary.resumed;
-    if (walk.kind != ProposalKind::kChanged) continue;
+    const bool commanded = walk.kind == ProposalKind::kCommanded;
+    if (walk.kind != ProposalKind::kChanged && !commanded) continue;
     ++summary.changed;
+    // A walk that goes on at its end as it was commanded was prompted by no measurement.
+    const auto planned = static_cast<int>(episode.walks[k - 1].plan.sequence.size());
+    if (is_commanded && walk.first_changed >= planned) continue;
     summary.latencies.push_back(walk.t - walk.measured);
     int begun = 0;
     for (const EpisodeEvent& event : episode.events) {

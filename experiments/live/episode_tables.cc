@@ -16,15 +16,14 @@ namespace {
 std::string OrNone(const std::string& text) { return text.empty() ? "none" : text; }
 
 CsvFile EventsCsv(const Episode& episode, size_t from) {
-  CsvWriter csv(
-      {{"t_s", kNumber, "s", "when"},
-       {"event", kString, "",
-        "measured, lost, contradicted, begins, near, early, late, pushed, handed_over, refused, "
-        "unsafe, stopped"},
-       {"world", kInteger, "", "version that was known then"},
-       {"walk", kInteger, "", "in execution then, from 0"},
-       {"half_step", kInteger, "", "that it is about, from 1; 0: none"},
-       {"text", kString, "", "in words"}});
+  CsvWriter csv({{"t_s", kNumber, "s", "when"},
+                 {"event", kString, "",
+                  "measured, lost, contradicted, commanded, begins, near, early, late, pushed, "
+                  "handed_over, refused, unsafe, stopped"},
+                 {"world", kInteger, "", "version that was known then"},
+                 {"walk", kInteger, "", "in execution then, from 0"},
+                 {"half_step", kInteger, "", "that it is about, from 1; 0: none"},
+                 {"text", kString, "", "in words"}});
   for (const EpisodeEvent& event : episode.events | std::views::drop(from)) {
     csv.Cell(event.t).Cell(event.what).Cell(event.version).Cell(event.walk);
     csv.Cell(event.half_step + 1).Cell(OrNone(event.text)).EndRow();
@@ -83,7 +82,7 @@ CsvFile ObstaclesCsv(const Episode& episode, size_t from) {
 CsvFile PlansCsv(const Episode& episode, size_t from) {
   CsvWriter csv({{"walk", kInteger, "", "from 0"},
                  {"handed_over_s", kNumber, "s", "when it took the place of the one before"},
-                 {"kind", kString, "", "changed, shortened, resumed or smoothed"},
+                 {"kind", kString, "", "changed, shortened, resumed, smoothed or commanded"},
                  {"asked_s", kNumber, "s", "when work on it began"},
                  {"measured_s", kNumber, "s", "when the world that it was made for was measured"},
                  {"first_changed", kInteger, "", "half-step, from 1"},
@@ -127,13 +126,15 @@ CsvFile TimingsCsv(const Episode& episode, size_t from) {
   CsvWriter csv({{"walk", kInteger, "", "from 0"},
                  {"check_s", kNumber, "s", "of computing: what is safe"},
                  {"plan_s", kNumber, "s", "of computing: footsteps"},
-                 {"smooth_s", kNumber, "s", "of computing: overlaps"}});
+                 {"smooth_s", kNumber, "s", "of computing: overlaps"},
+                 {"effort", kNumber, "1", "of computing, as counted, about seconds of one core"}});
   for (size_t k = from; k < episode.walks.size(); ++k) {
     const ExecutedWalk& walk = episode.walks[k];
     csv.Cell(static_cast<long>(k))
         .Cell(walk.check_s)
         .Cell(walk.plan_s)
         .Cell(walk.smooth_s)
+        .Cell(walk.effort)
         .EndRow();
   }
   return csv.file();

@@ -32,6 +32,11 @@ class FreeHalfSteps {
   /// Answers about a scene as it was measured, whose ground is the place's: free is what is free
   /// whenever it is executed. Borrows this.
   std::unique_ptr<const HalfStepQuery> Among(const Scene& scene) const;
+  /// The height of the ground under a sole at X_WF for who stands at the height `from` [m]; NaN: it
+  /// bears none there.
+  double HeightAt(const Pose2& X_WF, double from) const {
+    return alone_ ? alone_->HeightAt(X_WF, from) : from;
+  }
   /// Lets a search know what it chooses from, and how high the ground is.
   PlanRequest Request(const HalfStepQuery& query) const;
 

@@ -21,50 +21,6 @@ std::string Listed(const std::vector<std::string>& names) {
   return names.size() > kListed ? text + ", …" : text;
 }
 
-void DeclareEvent(Fields& fields, ScriptEvent* e) {
-  fields.Number(
-      "at_s", &e->at,
-      {.meaning = "when it happens", .unit = "s", .min = 0, .max = 3600, .required = true});
-  fields.Text("do", &e->what,
-              {.meaning = "an obstacle jumps, is carried, appears or vanishes; the goal moves; a "
-                          "no-step area appears; no frame arrives for a while",
-               .required = true,
-               .choices = {"jump", "carry", "appear", "vanish", "goal", "forbid", "lose"}});
-  fields.Text("obstacle", &e->obstacle, {.meaning = "of jump, carry, appear, vanish: its name"});
-  fields.Numbers("xyz", &e->xyz, 0,
-                 {.meaning = "of jump and carry: where to; []: of others",
-                  .unit = "m",
-                  .min = -1000,
-                  .max = 1000});
-  fields.Number("yaw_deg", &e->turn,
-                {.meaning = "of jump and carry: how far it turns about the world's z",
-                 .unit = "deg",
-                 .min = -360,
-                 .max = 360});
-  fields.Number("speed_m_s", &e->speed,
-                {.meaning = "of carry", .unit = "m/s", .min = 0, .max = 10});
-  fields.Numbers(
-      "goal_m", &e->goal, 0,
-      {.meaning = "of goal: its new place; []: of others", .unit = "m", .min = -1000, .max = 1000});
-  fields.Integer("area", &e->area,
-                 {.meaning = "of forbid: which no-step area, from 1", .min = 1, .max = 100000});
-  fields.Number("for_s", &e->lasts, {.meaning = "of lose", .unit = "s", .min = 0, .max = 3600});
-  const bool moves = e->what == "jump" || e->what == "carry";
-  const bool of_obstacle = moves || e->what == "appear" || e->what == "vanish";
-  if (of_obstacle && e->obstacle.empty()) {
-    fields.Complain("obstacle", "is missing (valid: the name of an obstacle of the scene)");
-  }
-  if (e->xyz.size() != 3 && (moves || !e->xyz.empty())) {
-    fields.Complain("xyz", "is missing or of another length (valid: x, y, z in m)");
-  }
-  if (e->what == "carry" && !(e->speed > 0.0)) {
-    fields.Complain("speed_m_s", "is missing (valid: above 0)");
-  }
-  if (e->goal.size() != 2 && (e->what == "goal" || !e->goal.empty())) {
-    fields.Complain("goal_m", "is missing or of another length (valid: x, y in m)");
-  }
-}
-
 void DeclareSensing(Fields& fields, SensingConfig* c) {
   fields.Text("source", &c->source,
               {.meaning = "stand_in: frames of what the script says; client: what clients of "
@@ -116,7 +72,7 @@ void DeclareBudget(Fields& fields, BudgetConfig* c, double half_step) {
 void DeclareScript(Fields& fields, LiveOptions* c, const Scene* scene) {
   fields.List("script", {.meaning = "what happens, in the order of time", .max_items = 10000},
               &c->script, [scene](Fields& f, ScriptEvent* event) {
-                DeclareEvent(f, event);
+                DeclareFields(f, event);
                 if (scene == nullptr) return;
                 for (const SceneMistake& one : MistakesOf(*event, *scene)) {
                   f.Complain(one.key.c_str(), one.what);
@@ -131,6 +87,10 @@ void DeclareScript(Fields& fields, LiveOptions* c, const Scene* scene) {
     fields.Complain("script",
                     "says what happens, but clients say what is measured (valid: [], or "
                     "sensing.source: stand_in)");
+  }
+  if (c->policy != "replan" && std::ranges::any_of(c->script, Commands)) {
+    fields.Complain("script",
+                    "commands a course in place of the goal (valid: with live.policy replan)");
   }
   if (!std::ranges::is_sorted(c->script, {}, &ScriptEvent::at)) {
     fields.Complain("script", "is not in the order of time (valid: at_s that do not fall)");
@@ -161,6 +121,13 @@ void DeclareLive(Fields& fields, LiveOptions* c, double half_step, const Scene* 
   fields.Number(
       "longest_s", &c->longest,
       {.meaning = "the episode ends then at the latest", .unit = "s", .min = 1, .max = 3600});
+  fields.Number("ahead_s", &c->ahead,
+                {.meaning = "where a course is commanded in place of the goal, so much walk to "
+                            "come is planned; 0: what two footsteps take without overlaps",
+                 .unit = "s",
+                 .min = 0,
+                 .max = 60,
+                 .left_out = 0.0});
   fields.Integer("spare_boxes", &c->spare_boxes,
                  {.meaning = "boxes of 0.2 x 0.2 x 0.1 m, spare_1 ..., that are not there until "
                              "something makes them appear",
@@ -187,6 +154,10 @@ void DeclareLive(Fields& fields, LiveOptions* c, double half_step, const Scene* 
 }
 
 }  // namespace
+
+double Ahead(const LiveConfig& config) {
+  return config.live.ahead > 0.0 ? config.live.ahead : 4.0 * config.experiment.half_step.duration;
+}
 
 std::vector<std::string> SpareNames(const LiveOptions& options) {
   std::vector<std::string> names;

@@ -5,24 +5,12 @@
 #include <vector>
 
 #include "experiments/config/experiment_config.h"
+#include "experiments/live/script_event.h"
 #include "planner/scene/scene.h"
 #include "wpg/files/fields.h"
 #include "wpg/files/key_description.h"
 
 namespace halfstep {
-
-/// Something that happens in an episode.
-struct ScriptEvent {
-  double at = 0.0;           ///< [s]
-  std::string what;          ///< jump, carry, appear, vanish, goal, forbid, lose
-  std::string obstacle;      ///< of jump, carry, appear, vanish
-  std::vector<double> xyz;   ///< where it jumps or is carried to, origin of its frame in W [m]
-  double turn = 0.0;         ///< about the world's z meanwhile [rad]
-  double speed = 0.0;        ///< of being carried [m/s]
-  std::vector<double> goal;  ///< the goal's new place [m]
-  int area = 1;              ///< of forbid: a no-step area of the scene, from 1
-  double lasts = 0.0;        ///< of lose: how long no frame arrives [s]
-};
 
 /// Where measurements come from, and what is assumed of them.
 struct SensingConfig {
@@ -54,6 +42,7 @@ struct LiveOptions {
   double horizon = 2.5;    ///< H: the uncertainty of a measurement grows no longer than this [s]
   double drift = 0.0;      ///< the robot strays from where it believes to be, at most at this [m/s]
   double longest = 120.0;  ///< an episode ends then [s]
+  double ahead = 0.0;      ///< of a course, so much walk is planned [s]; 0: as Ahead() says
   int spare_boxes = 0;     ///< not there until they appear
   int smooth_at_once = 3;  ///< junctions
   double down_up_cap = 1.0;         ///< of overlaps between steps, share of their natural bounds
@@ -77,6 +66,10 @@ struct LiveConfig {
       EpisodeDefaults();  ///< robot, scene, goal and all that the walk keeps
   LiveOptions live;       ///< how it goes on while the world changes
 };
+
+/// How much walk is planned where a course is commanded [s]: `live.ahead`, or what two footsteps
+/// take without overlaps.
+double Ahead(const LiveConfig& config);
 
 /// A key of `live`, or of an event of its script, that does not fit the scene.
 struct SceneMistake {

@@ -113,14 +113,16 @@ json WorldMessage(const World& world, double known) {
   for (const Obstacle& obstacle : world.scene.obstacles) {
     obstacles.push_back(ObstacleJson(obstacle));
   }
-  return {{"type", "world"},
-          {"world", world.version},
-          {"known_s", known},
-          {"measured_s", world.measured_at},
-          {"sound_since", world.sound_since},
-          {"goal", GoalJson(world)},
-          {"areas", areas},
-          {"obstacles", obstacles}};
+  json message = {{"type", "world"},
+                  {"world", world.version},
+                  {"known_s", known},
+                  {"measured_s", world.measured_at},
+                  {"sound_since", world.sound_since},
+                  {"goal", GoalJson(world)},
+                  {"areas", areas},
+                  {"obstacles", obstacles}};
+  if (world.course) message["commanded"] = world.course->Text();
+  return message;
 }
 
 json WalkMessage(const ExecutedWalk& walk, size_t index) {

@@ -82,6 +82,7 @@ bool FindOverlaps(const SafetyCheck& safety, const LiveConfig& config, double fr
                  .cheaper = sampled},
                 monitor);
   proposal->plan.parameters = result.parameters;
+  proposal->effort += result.work.effort();
   for (const int j : next) Nth(proposal->smoothed, j) = true;
   proposal->first_changed = next.front() + 1;
   return true;

@@ -14,6 +14,8 @@ std::string_view Name(ProposalKind kind) {
       return "shortened";
     case ProposalKind::kSmoothed:
       return "smoothed";
+    case ProposalKind::kCommanded:
+      return "commanded";
     case ProposalKind::kUnsafe:
       return "unsafe";
   }

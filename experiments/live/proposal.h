@@ -24,9 +24,11 @@ struct Situation {
   bool stopped = false;        ///< nothing more begins unless a successor is handed over
   double now = 0.0;            ///< [s]
   double hand_over = 0.0;      ///< a successor is taken at this time at the earliest [s]
-  std::shared_ptr<const World> world;  ///< the latest that is known; not null
-  bool shorten = false;                ///< when nothing else is to be done, look for a shorter way
-  int used_up = 0;  ///< proposals in a row until now whose searches used up all nodes in vain
+  std::shared_ptr<const World> world;         ///< the latest that is known; not null
+  std::shared_ptr<const Course> course = {};  ///< that the walk was planned for; null: the goal
+  int refused = 0;       ///< number of a list of footsteps that was refused; 0: none
+  bool shorten = false;  ///< when nothing else is to be done, look for a shorter way
+  int used_up = 0;       ///< proposals in a row until now whose searches used up all nodes in vain
 };
 
 /// What kind of answer a replanner gives.
@@ -36,12 +38,14 @@ enum class ProposalKind {
   kChanged,    ///< other footsteps, around what is in the way or to another goal
   kShortened,  ///< other footsteps, since they are fewer
   kSmoothed,   ///< other overlaps
+  kCommanded,  ///< other footsteps, one by one as they were commanded
   kUnsafe,     ///< there is no safe way on that was found: what is granted is executed
 };
 /// All of them.
 inline constexpr std::array kProposalKinds = {ProposalKind::kSafe,     ProposalKind::kResumed,
                                               ProposalKind::kChanged,  ProposalKind::kShortened,
-                                              ProposalKind::kSmoothed, ProposalKind::kUnsafe};
+                                              ProposalKind::kSmoothed, ProposalKind::kCommanded,
+                                              ProposalKind::kUnsafe};
 /// As walks.csv calls it: "changed".
 std::string_view Name(ProposalKind kind);
 
@@ -54,6 +58,9 @@ struct Proposal {
   int robot_through = -1;                              ///< of `plan`, as in Situation
   int first_changed = -1;                              ///< half-step; −1: none
   Grant grant = {};                                    ///< what is proved of `plan`
+  std::shared_ptr<const Course> course = {};           ///< of `plan`, as in Situation
+  bool refuses = false;                                ///< the footsteps that are commanded
+  double effort = 0.0;                                 ///< of it all, as Work::effort()
   PlanResult planned = {};                             ///< the last search
   std::int64_t nodes = 0;                              ///< of all searches
   double check_s = 0.0, plan_s = 0.0, smooth_s = 0.0;  ///< where the time went [s]

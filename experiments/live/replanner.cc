@@ -7,21 +7,25 @@
 #include "experiments/live/near_rest.h"
 #include "experiments/live/overlap_search.h"
 #include "experiments/live/prepared_world.h"
+#include "experiments/live/recent_part.h"
 #include "experiments/run/planning.h"
 #include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
 
-constexpr int kMostNear = 4;  // half-steps one after the other that keep less than demanded
+constexpr int kMostNear = 4;      // half-steps one after the other that keep less than demanded
 
 // Whether the robot waits before half-steps that are planned.
 bool GoesOn(const Situation& s) { return s.stopped && s.begun + 1 < s.plan.sequence.size(); }
 
 // The walk in execution, delayed until it is handed over where the robot stopped.
 Proposal WalkOf(const Situation& s) {
-  Proposal proposal{
-      .plan = s.plan, .smoothed = s.smoothed, .robot_through = s.robot_through, .grant = s.grant};
+  Proposal proposal{.plan = s.plan,
+                    .smoothed = s.smoothed,
+                    .robot_through = s.robot_through,
+                    .grant = s.grant,
+                    .course = s.course};
   if (GoesOn(s)) {
     proposal.plan =
         Delayed(s.plan, s.begun, std::max(s.hand_over, s.plan.Walk().start_of(s.begun + 1)));
@@ -36,6 +40,28 @@ Proposal WalkOf(const Situation& s) {
   return proposal;
 }
 
+// How far apart the soles' centres are at the start, across the left one [m].
+double WidthAtStart(const Place& place, const LiveConfig& config) {
+  const auto [left, right] = StartOf(config.experiment, place.robot, *place.scene.ground);
+  return std::abs((right.Inverse() * left).y);
+}
+
+// What a walk shall go on with, where a course is commanded: rest, once a list of footsteps was
+// taken or refused. Null: none is.
+std::shared_ptr<const Course> CourseFor(const Situation& s, const World& world) {
+  const std::shared_ptr<const Course>& course = world.course;
+  if (!course || course->kind != CourseKind::kFootsteps) return course;
+  if (course->number != s.refused && !SameCourse(course, s.course)) return course;
+  Course rest;
+  rest.number = course->number;
+  return std::make_shared<const Course>(std::move(rest));
+}
+
+// Whether the walk in execution does what was commanded, as far as it goes.
+bool IsPlannedFor(const Situation& s, const World& world) {
+  return world.course->number == s.refused || SameCourse(world.course, s.course);
+}
+
 }  // namespace
 
 Replanner::Replanner(const Place& place, const LiveConfig& config, const SweptVolumes& volumes)
@@ -43,14 +69,16 @@ Replanner::Replanner(const Place& place, const LiveConfig& config, const SweptVo
       config_(config),
       half_steps_(volumes, place.robot, config.experiment),
       alone_(place.robot, place.scene.Emptied(), config.experiment),
-      proved_alone_(HasLevels(*place.scene.ground)) {}
+      proved_alone_(HasLevels(*place.scene.ground)),
+      width_(WidthAtStart(place, config)) {}
 
 Replanner::Replanner(const Place& place, const LiveConfig& config)
     : robot_(place.robot),
       config_(config),
       half_steps_(place, config.experiment),
       alone_(place.robot, place.scene.Emptied(), config.experiment),
-      proved_alone_(HasLevels(*place.scene.ground)) {}
+      proved_alone_(HasLevels(*place.scene.ground)),
+      width_(WidthAtStart(place, config)) {}
 
 std::shared_ptr<const PreparedWorld> Replanner::Prepare(const World& world) const {
   return std::make_shared<const PreparedWorld>(world, robot_, config_.experiment, half_steps_);
@@ -67,6 +95,7 @@ std::optional<Margin> Replanner::Prove(const Situation& s, const SuperposedWalk&
   const Safety robot =
       alone_.OfRobot(walk, from, last, [&](int j) { return proved_alone_.Knows(walk, j); });
   for (int j = from; j <= robot.through; ++j) proved_alone_.Remember(walk, j);
+  proposal->effort += robot.work.effort();
   proposal->robot_through = std::max(robot.through, proposal->robot_through);
   Grant& grant = proposal->grant;
   // What is proved against this world already need not be proved again.
@@ -87,6 +116,7 @@ std::optional<Margin> Replanner::Prove(const Situation& s, const SuperposedWalk&
   };
   const int until = std::min({last, proposal->robot_through, walk.num_half_steps() - 1});
   Safety safety = among.safety.AmongObstacles(walk, first, until, since, known);
+  proposal->effort += safety.work.effort();
   for (int j = safety.through + 1; near && j <= until; j = safety.through + 1) {
     const bool follows = j == near->half_step() || std::ranges::count(grant.near, j - 1) > 0;
     if (!follows || j >= near->half_step() + kMostNear || !BeginsAtRest(walk, j)) break;
@@ -96,33 +126,18 @@ std::optional<Margin> Replanner::Prove(const Situation& s, const SuperposedWalk&
     grant.near.push_back(j);
     const int next = std::min(j + 1, walk.num_half_steps() - 1);
     safety = among.safety.AmongObstacles(walk, j + 1, until, walk.start_of(next), known);
+    proposal->effort += safety.work.effort();
   }
   grant.through = safety.through;
   return safety.refused_by ? safety.refused_by : robot.refused_by;
 }
 
-bool Replanner::Change(const Situation& s, const WalkPlan& plan, int junction,
-                       const PreparedWorld& among, const NearRest* near, std::mt19937_64& random,
-                       Proposal* proposal) const {
-  constexpr int kProvedAtOnce = 4;  // half-steps behind the junction
-  const double begin = SteadySeconds();
-  const auto& [half_step, X_WS, rest] = Nth(plan.sequence.half_steps, junction);
-  std::optional<StepState> in_air;
-  if (half_step.kind == HalfStepKind::kUp) in_air = {X_WS, half_step.support};
-  const std::int64_t left = config_.experiment.planner.max_nodes - proposal->nodes;
-  const std::array<Foothold, 2> stance = StanceAfter(plan.sequence, junction);
-  // Other footsteps after another junction do not begin where the robot rests.
-  const NearRest* from_rest = near && near->half_step() == junction + 1 ? near : nullptr;
-  const bool rests =
-      s.stopped || (junction + 1 == plan.sequence.size() && plan.Walk().duration() <= s.hand_over);
-  const PlanResult result = Plan(stance, in_air, among, from_rest, rests, left, random);
-  proposal->nodes += result.nodes;
-  proposal->planned = result;
-  proposal->plan_s += SteadySeconds() - begin;
-  if (result.status != PlanStatus::kSolved) return false;
-  if (result.footsteps.empty() && junction % 2 == 0) return false;
+std::optional<Margin> Replanner::Splice(const Situation& s, const WalkPlan& plan, int junction,
+                                        const std::vector<Footstep>& footsteps, int at_once,
+                                        const PreparedWorld& among, const NearRest* near,
+                                        Proposal* proposal) const {
   Proposal changed = *proposal;
-  changed.plan = Changed(plan, junction, result.footsteps);
+  changed.plan = Changed(plan, junction, footsteps);
   const bool more = junction + 1 < changed.plan.sequence.size();
   if (more && changed.plan.Walk().start_of(junction + 1) < s.hand_over) {
     changed.plan = Delayed(changed.plan, junction, s.hand_over);
@@ -136,15 +151,16 @@ bool Replanner::Change(const Situation& s, const WalkPlan& plan, int junction,
   changed.grant.through = std::min(proposal->grant.through, junction - 1);
   const double check = SteadySeconds();
   const SuperposedWalk walk = changed.plan.Walk();
-  const int last = std::min(junction + kProvedAtOnce, walk.num_half_steps() - 1);
-  const bool proved = !Prove(s, walk, last, among, near, &changed);
+  const int last = std::min(junction + at_once, walk.num_half_steps() - 1);
+  std::optional<Margin> refused = Prove(s, walk, last, among, near, &changed);
   changed.check_s += SteadySeconds() - check;
-  if (!proved) {
+  if (refused) {
     proposal->check_s = changed.check_s;
-    return false;
+    proposal->effort = changed.effort;
+    return refused;
   }
   *proposal = std::move(changed);
-  return true;
+  return std::nullopt;
 }
 
 void Replanner::Shorten(const Situation& s, const PreparedWorld& among, const NearRest* near,
@@ -157,6 +173,7 @@ void Replanner::Shorten(const Situation& s, const PreparedWorld& among, const Ne
   const bool changed = Change(s, proposal->plan, junctions.front(), among, near, random, &shorter);
   proposal->planned = shorter.planned;
   proposal->nodes = shorter.nodes;
+  proposal->effort = shorter.effort;
   if (!changed || shorter.plan.sequence.size() >= proposal->plan.sequence.size()) return;
   shorter.kind = ProposalKind::kShortened;
   shorter.reason = "fewer footsteps";
@@ -189,6 +206,13 @@ std::vector<int> Replanner::Junctions(const Situation& s, const SuperposedWalk& 
 
 Proposal Replanner::Propose(const Situation& s, const PreparedWorld& among,
                             std::mt19937_64& random) const {
+  const std::optional<RecentPart> recent = RecentPart::Of(s);
+  return recent ? recent->Whole(ProposeFrom(recent->situation(), among, random))
+                : ProposeFrom(s, among, random);
+}
+
+Proposal Replanner::ProposeFrom(const Situation& s, const PreparedWorld& among,
+                                std::mt19937_64& random) const {
   const double begin = SteadySeconds();
   Proposal proposal = WalkOf(s);
   const SuperposedWalk walk = proposal.plan.Walk();
@@ -201,19 +225,25 @@ Proposal Replanner::Propose(const Situation& s, const PreparedWorld& among,
   const std::optional<NearRest> near_rest = NearRest::Of(s, walk, among.safety, config_.experiment);
   const NearRest* near = near_rest ? &*near_rest : nullptr;
   const std::optional<Margin> refused = Prove(s, walk, all, among, near, &proposal);
-  const bool arrives = Arrives(proposal.plan, among.world);
+  const std::shared_ptr<const Course> course = CourseFor(s, among.world);
+  const bool planned_for = course && IsPlannedFor(s, among.world);
+  const bool arrives = course ? planned_for && !RunsShort(s, proposal, *course)
+                              : Arrives(proposal.plan, among.world);
   proposal.check_s = SteadySeconds() - begin;
   if (!refused && arrives) {
     Improve(s, among, near, random, &proposal);
     return proposal;
   }
-  proposal.reason =
-      refused ? among.safety.evaluator().Describe(*refused) : "the walk does not end in the goal";
+  proposal.reason = refused       ? among.safety.evaluator().Describe(*refused)
+                    : planned_for ? "to go on as commanded"
+                    : course      ? "another command: " + among.world.course->Text()
+                                  : "the walk does not end in the goal";
   if (config_.live.policy == "stop_and_replan" && !s.stopped) {
     // Nothing more begins but what brings the foot that is in the air back to the floor.
     proposal.grant.through = std::min(proposal.grant.through, s.begun / 2 * 2 + 1);
   }
-  ChangeAnywhere(s, Junctions(s, walk, proposal.grant.through, arrives), among, near, random,
+  const bool from_the_end = course ? planned_for : arrives;
+  ChangeAnywhere(s, Junctions(s, walk, proposal.grant.through, from_the_end), among, near, random,
                  &proposal);
   return proposal;
 }
@@ -233,6 +263,7 @@ void Replanner::Improve(const Situation& s, const PreparedWorld& among, const Ne
     proposal->reason = "overlaps";
   }
   proposal->smooth_s = SteadySeconds() - smooth;
+  if (among.world.course) return;
   if (proposal->kind == ProposalKind::kSafe && s.shorten) Shorten(s, among, near, random, proposal);
 }
 
@@ -240,10 +271,15 @@ void Replanner::ChangeAnywhere(const Situation& s, const std::vector<int>& junct
                                const PreparedWorld& among, const NearRest* near,
                                std::mt19937_64& random, Proposal* proposal) const {
   const WalkPlan plan = proposal->plan;
+  const std::shared_ptr<const Course> course = CourseFor(s, among.world);
   for (const int junction : junctions) {
     if (proposal->nodes >= config_.experiment.planner.max_nodes) break;
-    if (Change(s, plan, junction, among, near, random, proposal)) {
-      proposal->kind = ProposalKind::kChanged;
+    if (course ? Follow(s, plan, junction, *course, among, near, random, proposal)
+               : Change(s, plan, junction, among, near, random, proposal)) {
+      const bool listed = course && course->kind == CourseKind::kFootsteps;
+      proposal->kind = proposal->first_changed < 0 ? ProposalKind::kSafe
+                       : listed                    ? ProposalKind::kCommanded
+                                                   : ProposalKind::kChanged;
       return;
     }
     const std::string why = proposal->planned.status == PlanStatus::kSolved
@@ -252,40 +288,7 @@ void Replanner::ChangeAnywhere(const Situation& s, const std::vector<int>& junct
     if (!proposal->reason.ends_with(why)) proposal->reason += "; " + why;
   }
   proposal->kind = ProposalKind::kUnsafe;
-}
-
-Proposal Replanner::Begin(const std::array<Foothold, 2>& start, const PreparedWorld& among,
-                          int junctions, std::mt19937_64& random) const {
-  Proposal proposal{.kind = ProposalKind::kUnsafe};
-  const HalfStep like = PrototypeOf(config_.experiment);
-  const std::optional<NearRest> near_rest =
-      NearRest::AtStart(among.safety, config_.experiment, start, like);
-  const NearRest* near = near_rest ? &*near_rest : nullptr;
-  proposal.planned =
-      Plan(start, {}, among, near, /*rests=*/true, config_.experiment.planner.max_nodes, random);
-  proposal.reason = proposal.planned.sentence;
-  if (proposal.planned.footsteps.empty()) return proposal;
-  proposal.plan.sequence = MakeSequence(start, proposal.planned.footsteps, like.via_lateral,
-                                        like.shape, MotionModelOf(robot_, like.shape));
-  proposal.plan.parameters = PlannedMotion(proposal.plan.sequence);
-  const SuperposedWalk walk = proposal.plan.Walk();
-  Situation situation;
-  proposal.grant.version = -1;
-  if (const auto refused =
-          Prove(situation, walk, walk.num_half_steps() - 1, among, near, &proposal)) {
-    proposal.reason = among.safety.evaluator().Describe(*refused);
-    return proposal;
-  }
-  if (proposal.grant.valid_until < walk.end_of(0)) {
-    proposal.reason = "the first half-step ends later than what is measured of obstacles holds";
-    return proposal;
-  }
-  proposal.kind = ProposalKind::kChanged;
-  proposal.first_changed = 0;
-  proposal.smoothed.resize(static_cast<size_t>(proposal.plan.sequence.num_junctions()), false);
-  while (FindOverlaps(among.safety, config_, 0.0, 0, junctions, &proposal)) {
-  }
-  return proposal;
+  proposal->refuses = course && course->kind == CourseKind::kFootsteps && !junctions.empty();
 }
 
 }  // namespace halfstep

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "experiments/config/experiment.h"
+#include "experiments/live/course_steps.h"
 #include "experiments/live/free_half_steps.h"
 #include "experiments/live/live_config.h"
 #include "experiments/live/proposal.h"
@@ -20,13 +21,13 @@ class NearRest;
 struct PreparedWorld;
 
 /// Looks at a walk that is being executed, in this order of urgency: which half-steps are safe in
-/// the world as it is known now; if not all, or if the walk does not end in the goal: other
-/// footsteps from the last safe junction that can still be changed; else: overlaps of what has not
-/// begun; else: fewer footsteps. A proposal is made as soon as the next half-steps of it are
-/// proved; the next proposal proves the others. All searches of a proposal share the nodes of the
-/// config's `planner.max_nodes`: what a proposal costs is bounded. When they were used up in vain,
-/// the next search begins at another junction. Immutable; the same situation and the same state of
-/// `random` give the same proposal.
+/// the world as it is known now; if not all, or if the walk does not end in the goal, or does not
+/// go on as it was commanded: other footsteps from the last safe junction that can still be
+/// changed; else: overlaps of what has not begun; else: fewer footsteps. A proposal is made as soon
+/// as the next half-steps of it are proved; the next proposal proves the others. All searches of a
+/// proposal share the nodes of the config's `planner.max_nodes`: what a proposal costs is bounded.
+/// When they were used up in vain, the next search begins at another junction. Immutable; the same
+/// situation and the same state of `random` give the same proposal.
 class Replanner {
  public:
   /// Of the place the robot and the ground count; what worlds hold is measured. Half-steps are
@@ -42,8 +43,8 @@ class Replanner {
   Proposal Propose(const Situation& situation, const PreparedWorld& among,
                    std::mt19937_64& random) const;
 
-  /// A walk from the soles `start` to the goal of the world, with `junctions` of its overlaps
-  /// found; the proposal is kUnsafe without a plan.
+  /// A walk from the soles `start` to the goal of the world, or as it was commanded, with
+  /// `junctions` of its overlaps found; the proposal is kUnsafe without a plan.
   Proposal Begin(const std::array<Foothold, 2>& start, const PreparedWorld& world, int junctions,
                  std::mt19937_64& random) const;
 
@@ -52,14 +53,18 @@ class Replanner {
 
  private:
   bool Arrives(const WalkPlan& plan, const World& world) const;
+  // As Propose; `s` need not have all that is past.
+  Proposal ProposeFrom(const Situation& s, const PreparedWorld& among,
+                       std::mt19937_64& random) const;
   // `near`: of the first half-step, null: none. `rests`: before it the robot rests, so that there
   // is time to prove half-steps themselves where volumes are in the way.
   PlanResult Plan(const std::array<Foothold, 2>& stance, const std::optional<StepState>& in_air,
-                  const PreparedWorld& among, const NearRest* near, bool rests,
-                  std::int64_t max_nodes, std::mt19937_64& random) const;
+                  const PreparedWorld& among, const GoalRegion& goal, const NearRest* near,
+                  bool rests, std::int64_t max_nodes, std::mt19937_64& random) const;
   PlanResult Search(const std::array<Foothold, 2>& stance, const std::optional<StepState>& in_air,
-                    const PreparedWorld& among, const NearRest* near, const HalfStepQuery& query,
-                    std::int64_t max_nodes, std::mt19937_64& random) const;
+                    const PreparedWorld& among, const GoalRegion& goal, const NearRest* near,
+                    const HalfStepQuery& query, std::int64_t max_nodes,
+                    std::mt19937_64& random) const;
   // Proves the walk of the proposal up to half-step `last` as far as it is not proved yet, and
   // grants it. Returns what refused it. `near`, here and below: of the half-step that begins, or
   // began, at rest near an obstacle; null: none.
@@ -77,6 +82,40 @@ class Replanner {
   bool Change(const Situation& situation, const WalkPlan& plan, int junction,
               const PreparedWorld& among, const NearRest* near, std::mt19937_64& random,
               Proposal* proposal) const;
+  // A search from half-step `junction` of a plan on to `goal`, with the nodes that are left.
+  PlanResult PlanAfter(const Situation& situation, const WalkPlan& plan, int junction,
+                       const PreparedWorld& among, const GoalRegion& goal, const NearRest* near,
+                       std::mt19937_64& random, Proposal* proposal) const;
+  // Takes these footsteps after half-step `junction`, of which the first `at_once` half-steps are
+  // proved. Returns what refuses them; then the proposal stays as it is, but for what it cost.
+  std::optional<Margin> Splice(const Situation& situation, const WalkPlan& plan, int junction,
+                               const std::vector<Footstep>& footsteps, int at_once,
+                               const PreparedWorld& among, const NearRest* near,
+                               Proposal* proposal) const;
+  // The same walk with overlaps, where all of it is proved; else what refuses it.
+  std::optional<Margin> Start(const std::array<Foothold, 2>& start,
+                              const std::vector<Footstep>& footsteps, const PreparedWorld& among,
+                              const NearRest* near, int junctions, Proposal* proposal) const;
+
+  // Of courses that are commanded (replanner_course.cc).
+  Gait GaitOf(const WalkPlan& plan, const std::vector<bool>& smoothed) const;
+  // The footsteps of a course that no list is, where `kept` [s] of the walk to come stays.
+  CourseSteps StepsAhead(const Course& course, const Gait& gait, const Standing& standing,
+                         double kept) const;
+  // Those of a list, from where the feet stand on; fewer where the ground does not bear one.
+  std::vector<Footstep> Listed(const Course& course, std::array<Foothold, 2> feet) const;
+  // Whether what is planned of a walk along the course ends too soon.
+  bool RunsShort(const Situation& situation, const Proposal& proposal, const Course& course) const;
+  // As Change, along the course.
+  bool Follow(const Situation& situation, const WalkPlan& plan, int junction, const Course& course,
+              const PreparedWorld& among, const NearRest* near, std::mt19937_64& random,
+              Proposal* proposal) const;
+  // The same for a list of footsteps.
+  bool FollowList(const Situation& situation, const WalkPlan& plan, int junction,
+                  const Course& course, const PreparedWorld& among, const NearRest* near,
+                  Proposal* proposal) const;
+  Proposal BeginAlong(const std::array<Foothold, 2>& start, const PreparedWorld& among,
+                      const NearRest* near, int junctions, std::mt19937_64& random) const;
   // A way with fewer footsteps, where one is found.
   void Shorten(const Situation& situation, const PreparedWorld& among, const NearRest* near,
                std::mt19937_64& random, Proposal* proposal) const;
@@ -89,6 +128,7 @@ class Replanner {
   FreeHalfSteps half_steps_;
   SafetyCheck alone_;  // without obstacles
   mutable RememberedHalfSteps proved_alone_;
+  double width_;  // between the soles' centres where the feet stand side by side [m]
 };
 
 }  // namespace halfstep

@@ -45,11 +45,12 @@ Safety SafetyCheck::Prove(const SuperposedWalk& walk, int first, int last, doubl
       const Feasibility answer = test.Check(walk.StopBranch(j), span, &scratch);
       if (answer.verdict != Verdict::kFeasible) {
         safety.refused_by = answer.witness;
-        return safety;
+        break;
       }
     }
     safety.through = j;
   }
+  safety.work = scratch.work;
   return safety;
 }
 

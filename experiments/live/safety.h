@@ -7,6 +7,7 @@
 
 #include "experiments/config/experiment_config.h"
 #include "experiments/live/world.h"
+#include "smoothing/margins/work.h"
 #include "smoothing/proof/certified_feasibility.h"
 #include "smoothing/walk/superposed_walk.h"
 #include "wpg/robot/robot_model.h"
@@ -20,6 +21,7 @@ struct Safety {
   /// that one is refused.
   int through = -1;
   std::optional<Margin> refused_by;  ///< what ended the proof; none when nothing was refused
+  Work work = {};                    ///< that it took
 };
 
 /// Proves walks against one world. What depends on the robot alone is proved apart from what

@@ -163,6 +163,23 @@ GoalRegion TrueWorld::GoalAt(double t) const {
   return goal;
 }
 
+std::shared_ptr<const Course> TrueWorld::CourseAt(double t) const {
+  const ScriptEvent* last = nullptr;
+  int number = 0;
+  for (const ScriptEvent& event : script_) {
+    if (event.at > t) break;
+    if (event.what == "goal") last = nullptr;
+    if (!Commands(event)) continue;
+    last = &event;
+    ++number;
+  }
+  if (last == nullptr) return nullptr;
+  Course course = CourseOf(*last, number);
+  const Pose2 X_WU = WorldAt(t);
+  if (X_WU != Pose2{}) course = Moved(X_WU, std::move(course));
+  return std::make_shared<const Course>(std::move(course));
+}
+
 bool TrueWorld::IsSeen(double t) const {
   return std::ranges::none_of(script_, [t](const ScriptEvent& event) {
     return event.what == "lose" && event.at <= t && t < event.at + event.lasts;

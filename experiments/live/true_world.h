@@ -2,9 +2,11 @@
 
 #include <Eigen/Geometry>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "experiments/config/planning_config.h"
+#include "experiments/live/course.h"
 #include "experiments/live/live_config.h"
 #include "planner/scene/scene.h"
 #include "wpg/geometry/pose2.h"
@@ -48,6 +50,8 @@ class TrueWorld {
   /// Whether the no-step area of that index is there at time t [s].
   bool AreaIsThere(size_t area, double t) const;
   GoalRegion GoalAt(double t) const;  ///< where the robot shall go, as of time t [s]
+  /// What was commanded in its place, as of time t [s]; null: nothing since the goal was set.
+  std::shared_ptr<const Course> CourseAt(double t) const;
   /// Whether frames arrive at all.
   bool IsSeen(double t) const;
   /// The first time [s] from which on nothing happens any more, but for the drift.

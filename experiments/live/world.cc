@@ -49,6 +49,7 @@ double World::valid_until() const {
 bool DiffersClearly(const World& a, const World& b) {
   constexpr double kClear = 0.01;  // [m]
   if (!SameGoal(a.goal, b.goal) || a.areas != b.areas) return true;
+  if (!SameCourse(a.course, b.course)) return true;
   return !std::ranges::equal(
       a.scene.obstacles, b.scene.obstacles, [](const Obstacle& x, const Obstacle& y) {
         const double moved = (x.X_WO.translation() - y.X_WO.translation()).norm();
@@ -114,6 +115,7 @@ World Measure(const TrueWorld& truth, double t, const LiveOptions& options,
   World frame;
   frame.measured_at = t;
   frame.goal = truth.GoalAt(t);
+  frame.course = truth.CourseAt(t);
   frame.scene = truth.scene().Emptied();
   for (size_t i = 0; i < truth.scene().obstacles.size(); ++i) {
     // Drawn for all, so that what one obstacle does changes nothing for the others.

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <memory>
 #include <random>
 #include <string>
 #include <vector>
 
+#include "experiments/live/course.h"
 #include "experiments/live/live_config.h"
 #include "experiments/live/true_world.h"
 #include "planner/scene/scene.h"
@@ -24,9 +26,10 @@ struct World {
     Eigen::Isometry3d X_WO;  ///< that first measurement
     double since = 0.0;      ///< its time [s]
   };
-  std::vector<Stay> stays;    ///< by obstacle of `scene`
-  std::vector<size_t> areas;  ///< which no-step areas of the scene file are there
-  GoalRegion goal;            ///< where to go
+  std::vector<Stay> stays;                    ///< by obstacle of `scene`
+  std::vector<size_t> areas;                  ///< which no-step areas of the scene file are there
+  GoalRegion goal;                            ///< where to go, where `course` is null
+  std::shared_ptr<const Course> course = {};  ///< what was commanded in place of the goal
   /// The earliest version that no later one contradicts: an obstacle was not where it could not
   /// have been. What was proved against earlier versions is void; against this one and later ones
   /// it is not.

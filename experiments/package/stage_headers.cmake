@@ -1,4 +1,4 @@
-# Copies the headers of SOURCE and BUILD_INFO to OUT, as they are installed: what they include of
+# Copies the headers of SOURCE to OUT, as they are installed: what they include of
 # each other is named "halfstep/wpg/…" there, since "wpg/…" and "opt/…" may be other people's, too.
 file(REMOVE_RECURSE ${OUT})
 function(stage path name)
@@ -16,4 +16,3 @@ foreach(folder wpg planner opt smoothing experiments)
     endif()
   endforeach()
 endforeach()
-stage(${BUILD_INFO} experiments/build_info.h)

@@ -1,6 +1,6 @@
 // The module _halfstep: what the Python package `halfstep` is written on. It checks shapes and
 // values; names, units and explanations for users are the package's.
-#include "experiments/build_info.h"
+#include "experiments/about/build_info.h"
 #include "experiments/python/bindings.h"
 
 PYBIND11_MODULE(_halfstep, module) {

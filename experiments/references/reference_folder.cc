@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "experiments/build_info.h"
+#include "experiments/about/build_info.h"
 #include "experiments/tables/certificate_statement.h"
 #include "experiments/tables/csv_writer.h"
 #include "experiments/tables/not_covered_json.h"

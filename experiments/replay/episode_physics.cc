@@ -5,11 +5,10 @@
 #include <utility>
 
 #include "experiments/control/controller_lost.h"
-#include "experiments/control/dcm_controller.h"
 #include "experiments/replay/planned_row.h"
 #include "experiments/replay/simulated_obstacles.h"
-#include "planner/scene/no_step_areas.h"
 #include "planner/ground/flat_floor.h"
+#include "planner/scene/no_step_areas.h"
 #include "wpg/files/text.h"
 #include "wpg/nth.h"
 
@@ -17,9 +16,6 @@ namespace halfstep::replay {
 namespace {
 
 const RobotModel& ModelOf(const EpisodeRobot& robot) { return robot.setup.robot.model; }
-
-// Of the DCM's error, as the controller dcm has it.
-constexpr double kFilter = control::DcmOptions{}.filter;  // [s]
 
 // The push that acts in the period that begins then.
 std::optional<Push> PushIn(const std::vector<Push>& pushes, double begin, double period) {
@@ -59,7 +55,7 @@ EpisodePhysics::EpisodePhysics(EpisodeRobot robot, const TrueWorld& truth,
       truth_(truth.SeenFrom([](double) { return Pose2(); })),
       options_(robot_.setup.play),
       contacts_(ModelOf(robot_)),
-      dcm_(ModelOf(robot_), robot_.setup.model.ankle, kFilter) {
+      pushes_(robot_.setup.Controlled()) {
   // Where the robot strays to, edges are elsewhere than a walk's soles know.
   RequireFlatFloor(*truth.scene().ground, "--in-physics");
   options_.row_period = options.period;
@@ -131,29 +127,21 @@ void EpisodePhysics::Feel(const SuperposedWalk& walk) {
                    .text = TextOf(*contact)});
 }
 
-// A ZMP in the middle of one sole brings the DCM back from within the sole; half of that is left
-// for where the planned ZMP is beside the middle.
 void EpisodePhysics::FeelPush(const control::MeasuredState& measured) {
-  const control::PlannedState then = plan_->At(measured.t);
-  dcm_.Sense(measured, then, options_.row_period);
-  const Eigen::Vector2d& off = dcm_.value();
-  const Eigen::Vector3d off_B =
-      then.X_WB.linear().transpose() * Eigen::Vector3d(off.x(), off.y(), 0);
-  const Eigen::Vector2d& sole = ModelOf(robot_).sole_size;
-  const double share = (off_B.head<2>().cwiseAbs().cwiseQuotient(sole)).maxCoeff();
-  const bool was_pushed = std::exchange(pushed_, share > (pushed_ ? 0.125 : 0.25));
-  if (was_pushed || !pushed_) return;
+  const std::optional<double> off =
+      pushes_.Look(measured, plan_->At(measured.t), options_.row_period);
+  if (!off) return;
   felt_.push_back({.what = "pushed",
                    .text = Formatted("the DCM is %.1f mm off its plan: no foot is lifted until it "
                                      "is back",
-                                     1e3 * off.norm())});
+                                     1e3 * *off)});
 }
 
 std::string EpisodePhysics::Waits(Side support) const {
   if (contacts_.misses(support)) {
     return "the " + std::string(Name(support)) + " foot does not carry yet";
   }
-  return pushed_ ? "the DCM is off its plan" : "";
+  return pushes_.pushed() ? "the DCM is off its plan" : "";
 }
 
 double EpisodePhysics::NoStepAt(double t, const Pose2& X_US) const {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "experiments/control/contact_watch.h"
-#include "experiments/control/dcm_error.h"
+#include "experiments/control/push_watch.h"
 #include "experiments/live/episode.h"
 #include "experiments/live/true_world.h"
 #include "experiments/replay/replay_screen.h"
@@ -93,8 +93,7 @@ class EpisodePhysics {
   control::ContactWatch contacts_;
   std::vector<EpisodeEvent> felt_;
   std::shared_ptr<const PlannedStates> plan_;  // none without a controller
-  control::DcmError dcm_;
-  bool pushed_ = false;
+  control::PushWatch pushes_;
   std::string lost_;
   std::optional<TrueWorld> since_;  // by the time of the walk
   std::optional<Player> player_;

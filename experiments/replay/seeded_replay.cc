@@ -48,13 +48,16 @@ Simulation ReplaySetup::Robot(const SimulatedFloor& floor, const Disturbance& dr
   return SimulationOf(*this, options);
 }
 
+control::ControlledRobot ReplaySetup::Controlled() const {
+  return {.model = robot.model, .servos = {model.stiffness, model.damping}, .ankle = model.ankle};
+}
+
 PlayOptions ReplaySetup::PlayOf(const Simulation& simulated, const ReferenceMotion& motion) const {
   PlayOptions options = play;
   if (ground.uneven()) options.fallen_drop = kFallenDrop * robot.model.com_height;
   if (measures_tube) options.gauge = std::make_shared<TubeGauge>(robot.model, motion);
   if (!control) return options;
-  const std::unique_ptr<control::TrackingController> controller = control->make(
-      {.model = robot.model, .servos = {model.stiffness, model.damping}, .ankle = model.ankle});
+  const std::unique_ptr<control::TrackingController> controller = control->make(Controlled());
   options.control = std::make_shared<ControlLoop>(
       std::make_shared<PlannedStates>(robot.model, motion), *controller,
       control::Sensors(control->sensors, simulated.weight()));

@@ -38,6 +38,9 @@ struct ReplaySetup {
   Simulation Robot(const SimulatedFloor& floor) const;
   /// Disturbed.
   Simulation Robot(const SimulatedFloor& floor, const Disturbance& drawn) const;
+  /// What a controller, or who watches for pushes, may know of it: the undisturbed model, which is
+  /// borrowed.
+  control::ControlledRobot Controlled() const;
   /// How a motion is played on one of them, controlled. What is drawn no controller knows.
   PlayOptions PlayOf(const Simulation& simulated, const ReferenceMotion& motion) const;
 };

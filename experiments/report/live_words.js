@@ -23,6 +23,7 @@ export function planRows(table, { t, plan, grant, world, begun }) {
     const limit = grant.valid_until_s === null ? "" : `, as far as they end by ${seconds(grant.valid_until_s)}`;
     rows.push(["granted", `half-steps up to ${grant.through}${limit}`]);
   }
+  if (world?.commanded) rows.push(["commanded", world.commanded]);
   if (world) rows.push(["measured", `world ${world.world}, ${(1000 * (t - world.measured_s)).toFixed(0)} ms ago`]);
   const text = rows.map((row) => row.join("\t")).join("\n");
   if (table.dataset.key === text) return;
@@ -63,7 +64,7 @@ export function legend(list, recorded) {
       "Blue is left, orange is right."],
     ["Replaced plans", "dashed in pink, fading within 4 s."],
     ["Sole traces, body", `samples of ${motion}: not the proven swept volumes.`],
-    ["Goal", "the green disc. No-step areas are red."],
+    ["Goal", "the green disc; it counts while nothing else is commanded. No-step areas are red."],
   ];
   list.replaceChildren(...terms.flatMap(([term, text]) => [
     Object.assign(document.createElement("dt"), { textContent: term }),

@@ -21,6 +21,7 @@ bool Rises(const HalfStepConfig& form, const Crossing& crossing) {
 CrossingFit::CrossingFit(const ExperimentConfig& config, const RobotModel& robot,
                          const Scene& scene, std::vector<Crossing> crossings)
     : evaluator_(robot, scene, config.smoothing.limits),
+      certified_(evaluator_, config.smoothing.certification),
       scratch_(evaluator_.MakeScratch()),
       crossings_(std::move(crossings)) {}
 
@@ -63,15 +64,13 @@ CrossingFit::OfKind CrossingFit::Nearest(const HalfStepConfig& form, int kind) {
   return best;
 }
 
-void CrossingFit::Visit(
-    const HalfStepConfig& form, const Crossing& crossing,
-    const std::function<bool(const SuperposedWalk&, const LocalTime&)>& goes_on) {
+void CrossingFit::EachStep(const HalfStepConfig& form, const Crossing& crossing,
+                           const std::function<bool(const SuperposedWalk&)>& goes_on) const {
   std::array<Foothold, 2> feet;
   Nth(feet, Index(crossing.support)) = crossing.X_WS;
   Nth(feet, Index(Opposite(crossing.support))) = crossing.X_WF;
   const HalfStepShape shape = ShapeOf(form);
   const auto model = MotionModelOf(evaluator_.robot(), shape);
-  // A step in place moves down as it moves up, in reverse.
   for (const Side swing : {crossing.support, Opposite(crossing.support)}) {
     const HalfStepSequence sequence = MakeSequence(feet,
                                                    {{.side = swing,
@@ -79,12 +78,38 @@ void CrossingFit::Visit(
                                                      .via_height = form.via_height,
                                                      .duration = form.duration}},
                                                    form.via_lateral, shape, model);
-    const SuperposedWalk walk(sequence, PlannedMotion(sequence));
+    if (!goes_on(SuperposedWalk(sequence, PlannedMotion(sequence)))) return;
+  }
+}
+
+void CrossingFit::Visit(
+    const HalfStepConfig& form, const Crossing& crossing,
+    const std::function<bool(const SuperposedWalk&, const LocalTime&)>& goes_on) {
+  EachStep(form, crossing, [&](const SuperposedWalk& walk) {
     constexpr int kInstants = 10;
     for (int k = 0; k <= kInstants; ++k) {
-      if (!goes_on(walk, walk.Locate(form.duration * k / kInstants))) return;
+      if (!goes_on(walk, walk.Locate(form.duration * k / kInstants))) return false;
     }
+    return true;
+  });
+}
+
+bool CrossingFit::Proves(const HalfStepConfig& form) {
+  constexpr int kTried = 4;
+  int tried = 0;
+  for (const Crossing& crossing : crossings_) {
+    if (tried == kTried) break;
+    if (!Keeps(form, crossing)) continue;
+    ++tried;
+    bool proved = true;
+    EachStep(form, crossing, [&](const SuperposedWalk& walk) {
+      proved =
+          certified_.Check(walk, {0.0, form.duration}, &scratch_).verdict == Verdict::kFeasible;
+      return proved;
+    });
+    if (proved) return true;
   }
+  return false;
 }
 
 bool CrossingFit::Keeps(const HalfStepConfig& form, const Crossing& crossing) {

@@ -9,11 +9,13 @@
 #include "experiments/config/half_step_config.h"
 #include "experiments/run/crossing.h"
 #include "smoothing/margins/margin_evaluator.h"
+#include "smoothing/margins/work.h"
+#include "smoothing/proof/certified_feasibility.h"
 
 namespace halfstep {
 
-/// How well forms of half-steps do on crossings, at eleven instants of each: nothing of it is
-/// proved. To be asked by one thread.
+/// How well forms of half-steps do on crossings, at eleven instants of each: only what Proves()
+/// says is proved. To be asked by one thread.
 class CrossingFit {
  public:
   /// Robot and demands are the config's, obstacles and ground those of `scene`.
@@ -35,12 +37,19 @@ class CrossingFit {
   /// How near the best of the first crossings of a kind is to keeping all; `of` is null where the
   /// foot does not rise to the other level.
   OfKind Nearest(const HalfStepConfig& form, int kind);
+  /// Whether some crossing of those that a form keeps at these instants is certified for all t, of
+  /// the first four.
+  bool Proves(const HalfStepConfig& form);
+  Work work() const { return scratch_.work; }  ///< of all answers so far
   /// "clearance of left_foot to 'bar': …".
   std::string Describe(const Margin& margin) const { return evaluator_.Describe(margin); }
 
  private:
-  // Calls visit(walk, t) at instants of the half-steps down to the landing and up from it, until it
-  // says stop.
+  // Calls visit(walk) of a step in place of either foot, which moves down as it moves up, in
+  // reverse: so of the half-steps down to the landing and up from it. Until it says stop.
+  void EachStep(const HalfStepConfig& form, const Crossing& crossing,
+                const std::function<bool(const SuperposedWalk&)>& goes_on) const;
+  // Calls visit(walk, t) at instants of these half-steps, until it says stop.
   void Visit(const HalfStepConfig& form, const Crossing& crossing,
              const std::function<bool(const SuperposedWalk&, const LocalTime&)>& goes_on);
   bool Keeps(const HalfStepConfig& form, const Crossing& crossing);
@@ -48,6 +57,7 @@ class CrossingFit {
   std::pair<double, Margin> SlackOf(const HalfStepConfig& form, const Crossing& crossing);
 
   MarginEvaluator evaluator_;
+  CertifiedFeasibility certified_;
   MarginEvaluator::Scratch scratch_;
   std::vector<Crossing> crossings_;
 };

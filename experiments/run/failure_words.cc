@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "experiments/run/obstacle_footprint.h"
 #include "experiments/run/stepping_over.h"
@@ -50,6 +51,31 @@ bool IsTooHigh(double top, const RobotModel& robot) {
   return top >= kMostOfLeg * LegLengthOf(robot);
 }
 
+// An obstacle, and how many half-steps it refuses.
+struct Met {
+  const Obstacle* obstacle = nullptr;
+  int count = 0;
+};
+
+// The one that refuses most of them, each alone in the scene, of those that `counts` names: at most
+// 200 are looked at.
+Met MostMet(const std::vector<Refused>& refused, const SweptVolumes& volumes, const Place& place,
+            const std::function<bool(const Obstacle&)>& counts) {
+  constexpr int kObstacles = 200;
+  Scene alone = place.scene.Emptied();
+  Met most;
+  int looked_at = 0;
+  for (const Obstacle& obstacle : place.scene.obstacles) {
+    if (looked_at == kObstacles) break;
+    if (!counts(obstacle)) continue;
+    ++looked_at;
+    alone.obstacles = {obstacle};
+    const int met = CountMet(refused, {volumes, place.robot.sole_outline, alone});
+    if (met > most.count) most = {&obstacle, met};
+  }
+  return most;
+}
+
 std::string Share(int of, size_t all) {
   return Formatted("%d of the %zu half-steps refused nearest to the goal", of, all);
 }
@@ -78,40 +104,33 @@ std::string NearestWords(const WatchedQuery& watched, const PlanRequest& request
 
 Hindrance FindBlocking(const WatchedQuery& watched, const SweptVolumes& volumes, const Place& place,
                        const MarginLimits& limits) {
-  constexpr int kObstacles = 200;
   const std::vector<Refused> refused = SomeOf(watched.refused().all(), kAsked);
   if (refused.empty()) return {};
   const double no_step = limits.demanded_of(MarginFamily::kNoStep);
   const RobotMeasures measures = MeasuresOf(place.robot);
-  const Scene bare = place.scene.Emptied();
-  int most = 0, looked_at = 0;
-  const Obstacle* blocking = nullptr;
-  for (const Obstacle& obstacle : place.scene.obstacles) {
-    if (looked_at == kObstacles) break;
-    if (!IsNear(obstacle, refused, 2.0 * measures.leg_length)) continue;
-    ++looked_at;
-    Scene alone = bare;
-    alone.obstacles = {obstacle};
-    const int met = CountMet(refused, {volumes, place.robot.sole_outline, alone});
-    if (met <= most) continue;
-    most = met;
-    blocking = &obstacle;
-  }
-  Scene areas = bare;
+  const Met most = MostMet(refused, volumes, place, [&](const Obstacle& obstacle) {
+    return IsNear(obstacle, refused, 2.0 * measures.leg_length);
+  });
+  const Obstacle* const blocking = most.obstacle;
+  Scene areas = place.scene.Emptied();
   areas.no_step = place.scene.no_step;
   const int on_area = areas.no_step.empty()
                           ? 0
                           : CountMet(refused, {volumes, place.robot.sole_outline, areas, no_step});
-  if (on_area > most) return {Share(on_area, refused.size()) + " land on no-step areas"};
+  if (on_area > most.count) return {Share(on_area, refused.size()) + " land on no-step areas"};
   if (blocking == nullptr) return {};
-  Hindrance found{Share(most, refused.size()) + " meet " + Quote(blocking->name)};
+  Hindrance found{Share(most.count, refused.size()) + " meet " + Quote(blocking->name)};
+  if (!blocking->rests()) {
+    found.words += ", which counts everywhere that it ever is (`planner.moving`)";
+    return found;
+  }
   const double top = BoundsOf(blocking->shape, blocking->X_WO).max().z();
   const double lift = volumes.set.prototype.via_height;
   const std::string over =
       NoHalfStepOver(*blocking, place.robot, volumes, limits.demanded_of(MarginFamily::kClearance));
   if (!over.empty()) {
     found.words += "; " + over;
-  } else if (blocking->rests() && top >= lift) {
+  } else if (top >= lift) {
     found.words += Formatted(
         ", which is %.3g m high where feet rise to %.3g m: a way leads past it or there is none",
         top, lift);
@@ -125,21 +144,13 @@ Hindrance FindBlocking(const WatchedQuery& watched, const SweptVolumes& volumes,
 std::string MovingWords(const WatchedTimes& watched, const SweptVolumes& volumes,
                         const Place& place) {
   const std::vector<Refused> refused = SomeOf(watched.refused().all(), kAsked);
-  Scene alone = place.scene.Emptied();
-  int most = 0;
-  const Obstacle* blocking = nullptr;
-  for (const Obstacle& obstacle : place.scene.obstacles) {
-    if (obstacle.rests()) continue;
-    alone.obstacles = {obstacle};
-    const int met = CountMet(refused, {volumes, place.robot.sole_outline, alone});
-    if (met <= most) continue;
-    most = met;
-    blocking = &obstacle;
-  }
+  const Met most =
+      MostMet(refused, volumes, place, [](const Obstacle& obstacle) { return !obstacle.rests(); });
+  const Obstacle* const blocking = most.obstacle;
   if (blocking == nullptr) return "";
   const std::string text =
       Formatted("of %zu half-steps near the goal that are not always free %d meet the way of ",
-                refused.size(), most) +
+                refused.size(), most.count) +
       Quote(blocking->name);
   const auto& waypoints = blocking->motion.waypoints;
   if (blocking->motion.speed > 0.0 || waypoints.empty()) return text;
@@ -164,18 +175,22 @@ Hindrance FindDetour(const PlanRequest& request, const PlanResult& plan,
   if (way < kDetour * (at - begin).norm()) return {};
   // Narrower than what a leg might step over, were it to step as far as it is long.
   const double narrow = LegLengthOf(place.robot);
+  const Obstacle* higher = nullptr;  // than feet rise
   for (const Obstacle& obstacle : place.scene.obstacles) {
     if (!obstacle.rests()) continue;
     const Eigen::AlignedBox3d bounds = BoundsOf(obstacle.shape, obstacle.X_WO);
     if (IsTooHigh(bounds.max().z(), place.robot)) continue;
     if (bounds.sizes().head<2>().minCoeff() > narrow) continue;
     if (!LiesAcross(FootprintOf(obstacle), begin, end)) continue;
-    if (bounds.max().z() >= volumes.set.prototype.via_height) return {"", &obstacle};
+    if (bounds.max().z() >= volumes.set.prototype.via_height) {
+      if (higher == nullptr) higher = &obstacle;
+      continue;
+    }
     const std::string over = NoHalfStepOver(obstacle, place.robot, volumes,
                                             limits.demanded_of(MarginFamily::kClearance));
     if (!over.empty()) return {over, &obstacle};
   }
-  return {};
+  return {"", higher};
 }
 
 }  // namespace halfstep

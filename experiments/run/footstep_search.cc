@@ -136,7 +136,10 @@ void SearchFootsteps(const FootstepSearch& search, const Place& place, const Pla
   walk->proof_effort += request.proofs();
   if (walk->plan.status == PlanStatus::kSolved) {
     if (search.volumes != nullptr) {
-      Say(FindDetour(request, walk->plan, *search.volumes, place, evaluator.limits()), walk);
+      const Hindrance detour =
+          FindDetour(request, walk->plan, *search.volumes, place, evaluator.limits());
+      walk->detour = detour.words;
+      if (detour.in_the_way != nullptr) walk->in_the_way = detour.in_the_way->name;
     }
     walk->config = WithFootsteps(config, request.start, walk->plan.footsteps, place);
     return;

@@ -9,6 +9,7 @@
 #include "experiments/run/level_crossings.h"
 #include "experiments/run/obstacle_crossings.h"
 #include "experiments/run/obstacle_footprint.h"
+#include "wpg/files/number_text.h"
 #include "wpg/files/text.h"
 #include "wpg/nth.h"
 
@@ -109,13 +110,23 @@ HalfStepForms FormsFor(const ExperimentConfig& config, const Place& place, int w
   return found;
 }
 
-FormsOverObstacle FormsOver(const ExperimentConfig& config, const RobotModel& robot,
-                            const Obstacle& obstacle, int wanted) {
+std::string FormOver::Changed(const ExperimentConfig& from) const {
+  std::string text = "half_step: {" + Differences(form, from.half_step) + "}";
+  if (step_set.x_max != from.step_set.x_max) {
+    text += ", step_set: {x_max_m: " + ShortestText(step_set.x_max) + "}";
+  }
+  return text;
+}
+
+namespace {
+
+// Adds the most promising forms with the config's places.
+void LookOver(const ExperimentConfig& config, const RobotModel& robot, const Obstacle& obstacle,
+              int wanted, FormsOverObstacle* found) {
   Scene alone;
   alone.obstacles = {obstacle};
   CrossingFit fitting(config, robot, alone, DrawObstacleCrossings(config, robot, obstacle));
-  FormsOverObstacle found;
-  if (fitting.crossings().empty()) return found;
+  if (fitting.crossings().empty()) return;
   std::vector<std::pair<double, HalfStepConfig>> fits;
   CrossingFit::OfKind nearest;
   for (const HalfStepConfig& form :
@@ -126,11 +137,29 @@ FormsOverObstacle FormsOver(const ExperimentConfig& config, const RobotModel& ro
     const CrossingFit::OfKind near = fitting.Nearest(form, 0);
     if (nearest.of == nullptr || (near.of != nullptr && near.fit > nearest.fit)) nearest = near;
   }
-  if (fits.empty() && nearest.of != nullptr) found.missed = fitting.Describe(nearest.missed);
   std::ranges::stable_sort(fits, [](const auto& a, const auto& b) { return a.first > b.first; });
   for (const auto& [fit, form] : fits) {
-    if (std::ssize(found.forms) < wanted) found.forms.push_back(form);
+    if (std::ssize(found->forms) == wanted) break;
+    if (fitting.Proves(form)) found->forms.push_back({form, config.step_set});
   }
+  if (found->forms.empty() && nearest.of != nullptr) {
+    found->missed = fitting.Describe(nearest.missed);
+  }
+  found->effort += fitting.work().effort();
+}
+
+}  // namespace
+
+FormsOverObstacle FormsOver(const ExperimentConfig& config, const RobotModel& robot,
+                            const Obstacle& obstacle, int wanted) {
+  constexpr double kLonger = 1.4;
+  FormsOverObstacle found;
+  LookOver(config, robot, obstacle, wanted, &found);
+  if (!found.forms.empty()) return found;
+  ExperimentConfig longer = config;
+  // In millimetres, as one writes it.
+  longer.step_set.x_max = std::round(1e3 * kLonger * config.step_set.x_max) / 1e3;
+  LookOver(longer, robot, obstacle, wanted, &found);
   return found;
 }
 

@@ -26,16 +26,26 @@ struct HalfStepForms {
 /// Source: planner/README.md, "By certificates".
 HalfStepForms FormsFor(const ExperimentConfig& config, const Place& place, int wanted);
 
-/// Forms that lead over an obstacle that rests, on a flat floor.
-struct FormsOverObstacle {
-  std::vector<HalfStepConfig> forms;  ///< the most promising first; empty: none was found
-  std::string missed = {};            ///< what the nearest of them misses, where none was found
+/// A form that leads over an obstacle, and the places that half-steps of it are tried at.
+struct FormOver {
+  HalfStepConfig form;
+  StepGrid step_set;  ///< the config's, or with longer steps ahead
+  /// "half_step: {via_height_m: 0.09}, step_set: {x_max_m: 0.2}": what differs from the config's.
+  std::string Changed(const ExperimentConfig& from) const;
 };
 
-/// The `wanted` ≥ 1 most promising forms of HalfStepTable that lead over an obstacle, and its
-/// own not among them: those of which most of the stances astride it (DrawObstacleCrossings) keep
-/// at a few instants what is demanded, with nothing else in the scene. Nothing of it is proved.
-/// Source: planner/README.md, "Other half-steps".
+/// Forms that lead over an obstacle that rests, on a flat floor.
+struct FormsOverObstacle {
+  std::vector<FormOver> forms;  ///< the most promising first; empty: none was found
+  std::string missed = {};      ///< what the nearest of them misses, where none was found
+  double effort = 0.0;          ///< of looking for them (Work::effort)
+};
+
+/// The `wanted` ≥ 1 most promising forms of TableOverObstacle: those of which most of the stances
+/// astride the obstacle (DrawObstacleCrossings) keep at a few instants what is demanded, with
+/// nothing else in the scene, and of which one such stance is certified for all t. Where the
+/// config's steps have none, half-steps ahead that are longer by 0.4 are looked at.
+/// Source: planner/README.md, "Over an obstacle".
 FormsOverObstacle FormsOver(const ExperimentConfig& config, const RobotModel& robot,
                             const Obstacle& obstacle, int wanted);
 

@@ -71,11 +71,11 @@ void InterruptGuard::WaitForSignals(const std::stop_token& ended, pthread_t make
     }
     if (since > seconds(10)) proof_.request_stop();
     if (since > seconds(20)) {
-      EndAtOnce(
-          maker,
-          "halfstep: interrupted; what was found could not be proved and written within 20 s, so "
-          "it is lost\n",
-          kInterrupted);
+      const std::string end =
+          saved_by_.empty() ? ", so it is lost" : "; `" + saved_by_ + "` saves it";
+      const std::string sentence =
+          "halfstep: interrupted; what was found could not be proved and written within 20 s" + end;
+      EndAtOnce(maker, sentence + "\n", kInterrupted);
     }
   }
 }

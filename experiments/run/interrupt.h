@@ -4,7 +4,9 @@
 
 #include <atomic>
 #include <stop_token>
+#include <string>
 #include <thread>
+#include <utility>
 
 namespace halfstep {
 
@@ -27,14 +29,19 @@ class InterruptGuard {
   /// Requested 10 s later: for proofs of what was found before; the rest stays undecided.
   std::stop_token proof_token() const { return proof_.get_token(); }
 
-  /// Says that from now on there is something to keep.
-  void Keep() { keep_ = true; }
+  /// Says that from now on there is something to keep. `saved_by` is the command that saves it
+  /// where the process is ended before it has written it; "": none does. To be called once.
+  void Keep(std::string saved_by = {}) {
+    saved_by_ = std::move(saved_by);
+    keep_ = true;
+  }
 
  private:
   // `maker`: the thread that made the guard.
   void WaitForSignals(const std::stop_token& ended, pthread_t maker);
 
   std::stop_source stop_, step_, proof_;
+  std::string saved_by_;  // not changed once keep_ is true
   std::atomic<bool> keep_ = false;
   std::jthread waiter_;  // the last: uses what is above
 };

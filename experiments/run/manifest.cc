@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "experiments/build_info.h"
+#include "experiments/about/build_info.h"
 #include "experiments/run/json_fields.h"
 #include "experiments/tables/not_covered_json.h"
 #include "smoothing/margins/not_covered_by.h"

@@ -1,5 +1,6 @@
 #include "experiments/run/obstacle_footprint.h"
 
+#include <algorithm>
 #include <limits>
 #include <numbers>
 #include <variant>
@@ -46,6 +47,14 @@ ObstacleFootprint FootprintOf(const Obstacle& obstacle) {
   }
   best.top = Reach(obstacle, Eigen::Vector3d::UnitZ());
   return best;
+}
+
+bool ObstacleFootprint::IsBetween(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
+  const double a = across.dot(from), b = across.dot(to);
+  if (!(std::min(a, b) <= near && far <= std::max(a, b)) || a == b) return false;
+  const double share = (0.5 * (near + far) - a) / (b - a);
+  const double y = along.dot(from + share * (to - from));
+  return left <= y && y <= right;
 }
 
 bool LiesAcross(const ObstacleFootprint& print, const Eigen::Vector2d& from,

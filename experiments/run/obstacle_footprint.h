@@ -13,6 +13,10 @@ struct ObstacleFootprint {
   double left = 0.0, right = 0.0;  ///< its bounds on `along` [m]
   double top = 0.0;                ///< z of the obstacle's highest point in W [m]
   double depth() const { return far - near; }  ///< [m]
+
+  /// Whether the straight line between two points of the floor, of which one is at or before `near`
+  /// and one at or beyond `far` on `across`, passes over the rectangle: in its middle.
+  bool IsBetween(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const;
 };
 
 /// Of an obstacle at its pose.

@@ -34,7 +34,7 @@ std::string PlanJson(const PlannedWalk& walk) {
       {"planner", walk.config.planner.name},
       {"seed", walk.config.seed},
       {"status", Name(plan.status)},
-      {"message", plan.sentence},
+      {"message", plan.sentence + (walk.detour.empty() ? "" : "; " + walk.detour)},
       {"goal",
        {{"part", goal.part},
         {"x_m", goal.X_WG.x},

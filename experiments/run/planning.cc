@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "experiments/run/certificate_query.h"
+#include "experiments/run/crossing_query.h"
 #include "experiments/run/footstep_search.h"
 #include "experiments/run/ground_steps.h"
 #include "experiments/run/half_step_forms.h"
@@ -23,6 +24,7 @@
 #include "wpg/files/suggestion.h"
 #include "wpg/files/text.h"
 #include "wpg/nth.h"
+#include "wpg/robot/robot_measures.h"
 
 namespace halfstep {
 
@@ -140,8 +142,10 @@ void PlanByForms(const Place& place, const PlanningHooks& hooks, PlannedWalk* wa
   }
 }
 
-// With half-steps that are called free by their swept volumes.
-void PlanByVolumes(const Place& place, const PlanningHooks& hooks, PlannedWalk* walk) {
+// With half-steps that are called free by their swept volumes, and, where they lead over one of the
+// obstacles `over`, else by their proofs.
+void PlanByVolumes(const Place& place, const PlanningHooks& hooks, PlannedWalk* walk,
+                   const std::vector<ObstacleFootprint>& over = {}) {
   walk->half_steps = BakeHalfSteps(place.robot, walk->config, *place.scene.ground, hooks);
   if (!walk->half_steps.cached.volumes) {
     walk->plan.status = PlanStatus::kInterrupted;
@@ -156,53 +160,88 @@ void PlanByVolumes(const Place& place, const PlanningHooks& hooks, PlannedWalk* 
         volumes, place.robot.sole_outline, scene, limits.demanded_of(MarginFamily::kNoStep),
         std::numeric_limits<double>::infinity(), limits.demanded_of(MarginFamily::kFoothold));
   };
-  if (!walk->in_time) {
-    const SweptVolumeQuery query = query_on(place.scene);
-    return SearchFootsteps({.set = volumes.set, .query = query, .volumes = &volumes}, place, hooks,
-                           walk);
+  const Place resting = walk->in_time ? Resting(place) : place;
+  const SweptVolumeQuery query = query_on(resting.scene);
+  std::optional<SweptVolumeQuery> always;
+  std::optional<ObstacleTimes> times;
+  if (walk->in_time) {
+    always.emplace(query_on(MovingPart(place.scene)));
+    times.emplace(place.robot, MotionModelOf(place.robot, volumes.set.prototype.shape), volumes.set,
+                  place.scene, ClearanceOf(walk->config, place.robot), &*always);
   }
-  const SweptVolumeQuery resting = query_on(RestingPart(place.scene)),
-                         always = query_on(MovingPart(place.scene));
-  const ObstacleTimes times(place.robot, MotionModelOf(place.robot, volumes.set.prototype.shape),
-                            volumes.set, place.scene, ClearanceOf(walk->config, place.robot),
-                            &always);
-  SearchFootsteps({.set = volumes.set, .query = resting, .times = &times, .volumes = &volumes},
+  const FootstepSearch search{
+      .set = volumes.set, .query = query, .times = times ? &*times : nullptr, .volumes = &volumes};
+  if (over.empty()) return SearchFootsteps(search, place, hooks, walk);
+  const CertificateQuery proofs(
+      volumes.set, MarginEvaluator(place.robot, resting.scene, walk->config.smoothing.limits),
+      walk->config.smoothing.certification);
+  const CrossingQuery crossing(query, proofs, volumes.set, place.robot.sole_outline, over);
+  SearchFootsteps({.set = volumes.set,
+                   .query = crossing,
+                   .effort = [&proofs] { return proofs.work().effort(); },
+                   .times = search.times,
+                   .volumes = &volumes},
                   place, hooks, walk);
 }
 
-// Where half-steps of another form lead over what is in the way, plans with these as well, by their
-// proofs, for which nothing is baked: the cheaper plan stays.
+// What half-steps that rise to a height may lead over: what is lower than that and as narrow as a
+// leg is long.
+std::vector<ObstacleFootprint> LedOver(const Place& place, double via_height) {
+  constexpr size_t kMost = 200;
+  std::vector<ObstacleFootprint> over;
+  for (const Obstacle& obstacle : place.scene.obstacles) {
+    if (over.size() == kMost) break;
+    if (!obstacle.rests()) continue;
+    const ObstacleFootprint print = FootprintOf(obstacle);
+    if (print.top < via_height && print.depth() < LegLengthOf(place.robot)) over.push_back(print);
+  }
+  return over;
+}
+
+// Where no half-step of the set leads over what is in the way, plans with a set of another form
+// that does: the cheaper plan stays.
 void PlanOver(const ExperimentConfig& config, const Place& place, const PlanningHooks& hooks,
               PlannedWalk* walk) {
   constexpr int kMost = 2;
   const auto obstacle = std::ranges::find(place.scene.obstacles, walk->in_the_way, &Obstacle::name);
-  const FormsOverObstacle found = FormsOver(config, place.robot, *obstacle, kMost);
   const std::string name = Quote(walk->in_the_way);
+  const bool solved = walk->plan.status == PlanStatus::kSolved;
+  std::string* const said = solved ? &walk->detour : &walk->plan.sentence;
+  const FormsOverObstacle found = FormsOver(config, place.robot, *obstacle, kMost);
+  walk->proof_effort += found.effort;
   if (found.forms.empty()) {
-    walk->plan.sentence += "; no other half-step that was tried leads over " + name;
-    if (!found.missed.empty()) walk->plan.sentence += ": " + found.missed;
+    if (!said->empty() && !found.missed.empty()) {
+      *said += "; no other half-step that was tried leads over it: " + found.missed;
+    }
     return;
   }
-  const Place resting = walk->in_time ? Resting(place) : place;
-  for (const HalfStepConfig& form : found.forms) {
+  for (const FormOver& form : found.forms) {
     PlannedWalk other{.config = config,
                       .plan = {},
                       .half_steps = {},
                       .in_time = walk->in_time,
                       .not_covered = walk->not_covered};
-    other.config.half_step = form;
-    PlanByCertificates(place, resting, hooks, &other);
+    other.config.half_step = form.form;
+    other.config.step_set = form.step_set;
+    PlanByVolumes(place, hooks, &other, LedOver(place, form.form.via_height));
     if (hooks.stop.stop_requested()) return;
-    if (other.plan.status != PlanStatus::kSolved) continue;
-    if (walk->plan.status == PlanStatus::kSolved && other.plan.cost >= walk->plan.cost) continue;
-    other.changed_half_step = Differences(form, config.half_step);
-    other.plan.sentence += ", over " + name + " with half_step: {" + other.changed_half_step + "}";
+    const double effort = other.plan.effort() + other.proof_effort;
+    if (other.plan.status != PlanStatus::kSolved ||
+        (solved && !(other.plan.cost < walk->plan.cost))) {
+      walk->proof_effort += effort;
+      continue;
+    }
+    other.proof_effort += walk->plan.effort() + walk->proof_effort;
+    other.half_steps.set_wall += walk->half_steps.set_wall;
+    other.half_steps.wall += walk->half_steps.wall;
+    other.changed_half_step = Differences(form.form, config.half_step);
+    other.plan.sentence += ", over " + name + " with " + form.Changed(config);
     *walk = std::move(other);
     return;
   }
-  walk->plan.sentence += "; with half-steps that may lead over " + name + " (half_step: {" +
-                         Differences(found.forms.front(), config.half_step) +
-                         "}) no better plan was found";
+  if (said->empty()) return;
+  *said += "; with half-steps that lead over it (" + found.forms.front().Changed(config) +
+           ") no better plan was found";
 }
 
 }  // namespace
@@ -237,7 +276,8 @@ PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
     PlanByForms(place, hooks, &walk);
   } else {
     PlanByVolumes(place, hooks, &walk);
-    if (!walk.in_the_way.empty() && !walk.on_levels) {
+    const bool may_prove = in_time || !AnythingMoves(place.scene);
+    if (!walk.in_the_way.empty() && !walk.on_levels && may_prove) {
       PlanOver(config, place, hooks, &walk);
     }
   }

@@ -32,9 +32,12 @@ struct PlannedWalk {
   /// The keys of half_step that differ from the config's, since its own do not cross the ground, or
   /// an obstacle.
   std::string changed_half_step = {};
-  double proof_effort = 0.0;  ///< of half-steps that were called free by proofs (Work::effort)
-  bool on_levels = false;     ///< whether the scene's ground has levels, so that heights are told
-  bool in_time = false;       ///< whether obstacles that move counted only where they are then
+  /// Of a way that is longer than the straight one: what no half-step leads over; "": nothing.
+  std::string detour = {};
+  /// Of half-steps that were called free by proofs (Work::effort), and of searches before this one.
+  double proof_effort = 0.0;
+  bool on_levels = false;  ///< whether the scene's ground has levels, so that heights are told
+  bool in_time = false;    ///< whether obstacles that move counted only where they are then
   std::vector<NotCovered> not_covered = {};  ///< what no proof behind the plan speaks of
 };
 

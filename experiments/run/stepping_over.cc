@@ -170,9 +170,9 @@ std::string NoHalfStepOver(const Obstacle& obstacle, const RobotModel& robot,
   }
   if (low == 0.0) return too_short;
   return it + Formatted(
-                  ": of its depth of %.3g m half-steps here lead over %.3g m (higher ones: "
-                  "half_step.via_height_m)",
-                  print.depth(), low);
+                  ": half-steps here lead over %.3g m of height at its depth of %.3g m (higher "
+                  "ones: half_step.via_height_m)",
+                  low, print.depth());
 }
 
 }  // namespace halfstep

@@ -22,10 +22,12 @@ struct AskedHalfStep {
 /// Of half-steps that a planner was refused, those that begin nearest to the goal.
 class NearestRefused {
  public:
+  /// None yet.
   explicit NearestRefused(const GoalRegion& goal) : goal_(goal) {}
 
   /// From the support sole to the goal [m].
   double Left(const Foothold& X_WS) const { return goal_.Distance(X_WS.Planar().position()); }
+  /// Takes element i from `support`, which stands at X_WS.
   void Add(int i, bool up, Side support, const Foothold& X_WS);
   /// At least the 1000 nearest, if there are so many.
   const std::vector<AskedHalfStep>& all() const { return all_; }

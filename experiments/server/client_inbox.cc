@@ -15,7 +15,7 @@ bool Replaces(const Edit& next, const Edit& last) {
     const Carry& before = std::get<Carry>(last);
     return carry->obstacle == before.obstacle && before.turn == 0.0;
   }
-  return std::holds_alternative<MoveGoal>(next);
+  return std::holds_alternative<MoveGoal>(next) || std::holds_alternative<Command>(next);
 }
 
 }  // namespace

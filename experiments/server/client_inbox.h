@@ -23,7 +23,7 @@ class ClientInbox {
   /// False: there are too many that were not taken yet.
   bool Add(Measurement measurement);
   /// A carry takes the place of one of the same obstacle that came just before and was not taken
-  /// yet; so does a goal.
+  /// yet; so do a goal and a command.
   bool Add(const Edit& edit);
   std::vector<Measurement> TakeMeasurements();  ///< all that came since the last call, in order
   std::vector<Edit> TakeEdits();                ///< all that came since the last call, in order

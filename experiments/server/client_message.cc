@@ -19,6 +19,11 @@ constexpr double kMostTurn = 2.0 * std::numbers::pi;
 constexpr double kMostCommands = 1e12;
 constexpr double kMostAngle = 10.0;   // [rad]
 constexpr double kMostSpeed = 100.0;  // [rad/s]
+// Of commands, as a script's keys allow.
+constexpr double kFastestCommand = 2.0;    // [m/s], [rad/s]
+constexpr double kSlowestCommand = 0.001;  // along a path [m/s]
+constexpr double kMostFootYaw = 36000.0;   // [deg]
+constexpr int kMostPoints = 1000, kMostFootsteps = 100;
 
 Eigen::Vector3d ReadPlace(MessageFields& fields) {
   return fields.Numbers("xyz_m", 3, -kFarthestMessage, kFarthestMessage);
@@ -107,6 +112,51 @@ Commanded ReadCommand(MessageFields& fields) {
           .speeds = BothLegs(fields, "speeds_rad_s", kMostSpeed)};
 }
 
+Command ReadWalk(MessageFields& fields) {
+  Command command;
+  command.event.what = "walk";
+  for (const char* key : {"vx_m_s", "vy_m_s", "yaw_rad_s"}) {
+    command.event.velocity.push_back(fields.Number(key, -kFastestCommand, kFastestCommand));
+  }
+  return command;
+}
+
+Command ReadFollow(MessageFields& fields) {
+  Command command;
+  command.event.what = "follow";
+  const Eigen::MatrixXd rows =
+      fields.RowsUpTo("path_m", 2, kMostPoints, 2, -kFarthestMessage, kFarthestMessage);
+  command.event.path = rows.transpose();
+  if (!IsPath(command.event.path)) {
+    fields.Fail("path_m", "has a point twice in a row (valid: points 1 mm apart and more)");
+  }
+  command.event.speed = fields.Number("speed_m_s", kSlowestCommand, kFastestCommand);
+  return command;
+}
+
+Command ReadFootsteps(MessageFields& fields) {
+  Command command;
+  command.event.what = "footsteps";
+  for (MessageFields& one : fields.Objects("footsteps")) {
+    CommandedFootstep footstep;
+    const std::string foot = one.Text("foot");
+    if (foot != "left" && foot != "right") {
+      one.Fail("foot", Quote(foot) + " (valid: left, right)");
+    }
+    footstep.side = foot == "left" ? Side::kLeft : Side::kRight;
+    const Eigen::Vector2d p = ReadPoint(one);
+    const double yaw = one.Number("yaw_deg", -kMostFootYaw, kMostFootYaw, 0.0);
+    footstep.X_WF = {p.x(), p.y(), yaw * std::numbers::pi / 180.0};
+    one.RefuseOthers();
+    command.event.footsteps.push_back(footstep);
+  }
+  const std::ptrdiff_t count = std::ssize(command.event.footsteps);
+  if (count < 1 || count > kMostFootsteps) {
+    fields.Fail("footsteps", Formatted("%td of them (valid: from 1 to %d)", count, kMostFootsteps));
+  }
+  return command;
+}
+
 Carry ReadCarry(MessageFields& fields, const Scene& scene) {
   return {.obstacle = ObstacleNamed(fields, "obstacle", scene),
           .to = ReadPlace(fields),
@@ -120,6 +170,7 @@ ClientMessageReader::ClientMessageReader(const Scene& scene, const LiveOptions& 
     : scene_(scene),
       part_(part),
       client_measures_(options.sensing.source == "client"),
+      commands_(part == ClientPart::kWorld && options.policy == "replan"),
       control_period_(options.period) {}
 
 ClientMessage ClientMessageReader::Read(std::string_view text) const {
@@ -144,6 +195,11 @@ ClientMessage ClientMessageReader::Read(std::string_view text) const {
     readers["remove"] = [&](MessageFields& f) {
       return edit(Remove{ObstacleNamed(f, "obstacle", scene_)});
     };
+  }
+  if (commands_) {
+    readers["walk"] = [&](MessageFields& f) { return edit(ReadWalk(f)); };
+    readers["follow"] = [&](MessageFields& f) { return edit(ReadFollow(f)); };
+    readers["footsteps"] = [&](MessageFields& f) { return edit(ReadFootsteps(f)); };
   }
   const nlohmann::json object = ParseMessage(text);
   const std::string type = MessageFields(object, "").Text("type");

@@ -53,7 +53,11 @@ struct AddBox {
 struct Remove {
   size_t obstacle = 0;  ///< index into the scene
 };
-using Edit = std::variant<Carry, MoveGoal, AddBox, Remove>;  ///< what a person does
+/// Where to go on in place of the goal: an event of a script, but for its time.
+struct Command {
+  ScriptEvent event;  ///< walk, follow or footsteps
+};
+using Edit = std::variant<Carry, MoveGoal, AddBox, Remove, Command>;  ///< what a person does
 /// No half-step is to begin for the time being.
 struct Hold {
   bool held = true;  ///< false: release
@@ -89,6 +93,7 @@ class ClientMessageReader {
   Scene scene_;
   ClientPart part_;
   bool client_measures_;
+  bool commands_;  // whether the policy takes courses
   double control_period_;
 };
 

@@ -21,6 +21,12 @@ ClientSensor::ClientSensor(const Scene& scene, const LiveConfig& config, ClientI
 void ClientSensor::Begin(double origin) { last_ -= origin; }
 
 std::optional<Frame> ClientSensor::Next(double now) {
+  for (const Edit& edit : inbox_.TakeEdits()) {
+    const auto* command =
+        std::get_if<Command>(&edit);  // others are not taken where clients measure
+    if (command == nullptr) continue;
+    course_ = std::make_shared<const Course>(CourseOf(command->event, ++commands_));
+  }
   for (ClientInbox::Measurement& measurement : inbox_.TakeMeasurements()) {
     waiting_.push_back(std::move(measurement));
   }
@@ -37,7 +43,8 @@ std::optional<Frame> ClientSensor::Next(double now) {
 }
 
 World ClientSensor::WorldOf(const MeasuredFrame& measured, double t) {
-  if (measured.goal) {
+  if (measured.goal && goal_.X_WG.position() != *measured.goal) {
+    course_ = nullptr;
     goal_.X_WG.x = measured.goal->x();
     goal_.X_WG.y = measured.goal->y();
   }
@@ -45,6 +52,7 @@ World ClientSensor::WorldOf(const MeasuredFrame& measured, double t) {
   World frame;
   frame.measured_at = t;
   frame.goal = goal_;
+  frame.course = course_;
   frame.scene = scene_.Emptied();
   for (const MeasuredFrame::Seen& seen : measured.seen) {
     frame.scene.obstacles.push_back(

@@ -31,7 +31,9 @@ class ClientSensor final : public Sensor {
   LiveOptions options_;
   ClientInbox& inbox_;
   std::deque<ClientInbox::Measurement> waiting_;
-  double last_;  // t_m of the last frame [s]
+  double last_;                           // t_m of the last frame [s]
+  std::shared_ptr<const Course> course_;  // that a client commanded; null: none
+  int commands_ = 0;
   GoalRegion goal_;
   std::vector<size_t> areas_;
 };

@@ -111,6 +111,13 @@ std::string EditedSensor::Apply(const Remove& remove, double now) {
   return "";
 }
 
+std::string EditedSensor::Apply(const Command& command, double now) {
+  ScriptEvent event = command.event;
+  event.at = now;
+  sensor_.Append(event);
+  return "";
+}
+
 double EditedSensor::QuietFrom() const { return halfstep::QuietFrom(inbox_, options_); }
 
 }  // namespace halfstep

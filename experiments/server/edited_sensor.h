@@ -33,6 +33,7 @@ class EditedSensor final : public Sensor {
   std::string Apply(const MoveGoal& goal, double now);
   std::string Apply(const AddBox& box, double now);
   std::string Apply(const Remove& remove, double now);
+  std::string Apply(const Command& command, double now);
 
   StandInSensor sensor_;
   LiveOptions options_;

@@ -130,6 +130,18 @@ Eigen::MatrixXd MessageFields::Rows(const std::string& key, int rows, int count,
   return numbers;
 }
 
+Eigen::MatrixXd MessageFields::RowsUpTo(const std::string& key, int least, int most, int count,
+                                        double min, double max) {
+  const json& list = Of(key);
+  const std::ptrdiff_t rows = list.is_array() ? std::ssize(list) : -1;
+  if (rows < least || rows > most) {
+    Fail(key,
+         Formatted("is no list of %d to %d lists (valid: of %d numbers each ", least, most, count) +
+             RangeText(min, max) + ")");
+  }
+  return Rows(key, static_cast<int>(rows), count, min, max);
+}
+
 MessageFields MessageFields::Object(const std::string& key) {
   const json& object = Of(key);
   if (!object.is_object()) Fail(key, "is no object (valid: {…})");

@@ -34,6 +34,9 @@ class MessageFields {
   Eigen::VectorXd Numbers(const std::string& key, int count, double min, double max);
   /// So many rows of so many numbers.
   Eigen::MatrixXd Rows(const std::string& key, int rows, int count, double min, double max);
+  /// From `least` to `most` such rows.
+  Eigen::MatrixXd RowsUpTo(const std::string& key, int least, int most, int count, double min,
+                           double max);
   /// The fields of an object.
   MessageFields Object(const std::string& key);
   /// The fields of each of a list of objects.

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <tuple>
 
-#include "experiments/build_info.h"
+#include "experiments/about/build_info.h"
 #include "experiments/config/experiment.h"
 #include "experiments/sweep/sweep_tables.h"
 #include "experiments/tables/csv_reader.h"

@@ -91,7 +91,8 @@ std::vector<PlanRow> ReadPlans(const std::filesystem::path& folder) {
   for (size_t i = 0; i < csv.size(); ++i) {
     (void)csv.Whole(i, 0, 0);
     csv.CheckFirst(i, static_cast<int>(i));
-    rows.push_back({.handed_over = csv.Number(i, 1),
+    rows.push_back({.kind = csv.Cell(i, 2),
+                    .handed_over = csv.Number(i, 1),
                     .footsteps = csv.Positive(i, 6),
                     .duration = csv.Number(i, 7)});
   }

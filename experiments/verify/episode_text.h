@@ -50,8 +50,9 @@ struct ObstacleRow {
   double error = 0, speed = 0, horizon = 0;  ///< r [m], v [m/s], H [s]
 };
 
-/// A row of plans.csv; what it says of why and how a walk was made is not read.
+/// A row of plans.csv; most of what it says of why and how a walk was made is not read.
 struct PlanRow {
+  std::string kind;        ///< why the walk was proposed
   double handed_over = 0;  ///< [s]
   int footsteps = 0;       ///< of the walk
   double duration = 0;     ///< [s]

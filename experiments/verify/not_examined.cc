@@ -114,8 +114,8 @@ constexpr NotExamined kOfEpisode[] = {
     {"manifest.json", "promise.touched.deepest_s", "the same"},
     {"events.csv", "t_s", "of other events than `begins`, but that it is not after the end"},
     {"events.csv", "event",
-     "but `begins`, `near`, how many are `contradicted` by a world, and `stopped` where a walk was "
-     "not followed"},
+     "but `begins`, `near`, how many are `contradicted` by a world, `commanded` by a script, and "
+     "`stopped` where a walk was not followed"},
     {"events.csv", "world", kHow},
     {"events.csv", "walk", "but of `stopped` where a walk was not followed"},
     {"events.csv", "half_step", "but of `begins`, `near`, `stopped`"},
@@ -142,7 +142,7 @@ constexpr NotExamined kOfEpisode[] = {
     {"walks/NNN/footsteps.csv", "duration_s", "as planned; half_steps.csv says what it is"},
     {"walks/NNN/half_steps.csv", "rows of half-steps that never began",
      "but that they make a walk"},
-    {"plans.csv", "kind", kHow},
+    {"plans.csv", "kind", "but of `commanded`, that the script has these footsteps"},
     {"plans.csv", "asked_s", kHow},
     {"plans.csv", "measured_s", kHow},
     {"plans.csv", "first_changed", kHow},

@@ -7,6 +7,7 @@
 #include "experiments/config/known_names.h"
 #include "experiments/live/live_config.h"
 #include "experiments/live/spare_boxes.h"
+#include "experiments/verify/check_episode_commands.h"
 #include "experiments/verify/check_episode_grants.h"
 #include "experiments/verify/check_episode_motion.h"
 #include "experiments/verify/check_episode_promise.h"
@@ -128,6 +129,7 @@ void CheckEpisodeWalking(const VerifyOptions& options, const EpisodeText& episod
       episode, all.walks.back(), place.scene, DemandsOf(experiment.smoothing.limits, findings),
       {.period = period, .tolerance = options.tolerance.value_or(Tolerances(place.robot).played)},
       findings);
+  CheckEpisodeCommands(episode, manifest, config.live, findings);
   CheckEpisodePromise(promise, {episode, &executed, manifest.end, place.scene, config.live},
                       findings);
 }

@@ -50,8 +50,8 @@ class BestSearch {
       const bool no_tree = Grow(nullptr);
       if (!monitor_.plans().empty()) break;
       if (monitor_.stopped()) return {};
-      // The cells of A* are smaller: it has the last word.
-      monitor_.Allow(no_tree ? kUnlimited : turn);
+      if (no_tree && edges_ == nullptr) return {.exhausted = true};
+      monitor_.Allow(no_tree ? kUnlimited : turn);  // in time A* has the last word
       if (SearchWith(kFirstWeight)) return {.exhausted = true};
       if (monitor_.stopped()) return {};
     }

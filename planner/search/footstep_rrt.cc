@@ -69,6 +69,10 @@ TreeEnd GrowTree(const std::vector<StepState>& starts, const RrtOptions& options
 
 namespace {
 
+constexpr const char* kFirstArrivals =
+    "all was searched that the half-steps reach inside the workspace, but not every arrival at a "
+    "place that was reached before (`planner.name: best` looks at these)";
+
 // No plan from these states can be cheaper.
 bool IsCheapest(double cost, const std::vector<StepState>& starts, const StepGraph& graph) {
   for (const StepState& start : starts) {
@@ -90,7 +94,10 @@ PlanResult FootstepRrt::Plan(const PlanRequest& request, std::mt19937_64& random
         TimedEdges* edges = in_time ? &*in_time : nullptr;
         StepPlan first;
         const TreeEnd end = GrowTree(starts, options_, graph, monitor, edges, random, &first);
-        if (end != TreeEnd::kPlan) return SearchEnd{.exhausted = end == TreeEnd::kExhausted};
+        if (end != TreeEnd::kPlan) {
+          return SearchEnd{.exhausted = end == TreeEnd::kExhausted,
+                           .sentence = edges == nullptr ? "" : kFirstArrivals};
+        }
         monitor->Offer(std::move(first));
         while (!IsCheapest(monitor->best_cost(), starts, *graph)) {
           if (monitor->Stop()) return SearchEnd{};

@@ -209,14 +209,18 @@ bool SearchStepsInTime(const std::vector<StepState>& starts,
                        const StepSearchOptions& options, const PlanRequest& request,
                        StepGraph* graph, PlanMonitor* monitor) {
   HALFSTEP_CHECK(request.times != nullptr, "no times");
+  const auto search = [&](double weight) {
+    return SearchInTime(to_go, weight, options.cells, request, graph, monitor).Run(starts);
+  };
+  // With a weight above 1 an earlier arrival may have been left out.
+  bool left_out = false;
   for (const double weight : options.weights) {
-    const SearchInTime::End end =
-        SearchInTime(to_go, weight, options.cells, request, graph, monitor).Run(starts);
-    // With a larger weight an earlier arrival may have been left out.
+    const SearchInTime::End end = search(weight);
     if (end == SearchInTime::End::kExhausted && weight <= 1.0) return true;
     if (end == SearchInTime::End::kStopped || monitor->Stop()) return false;
+    left_out = end == SearchInTime::End::kExhausted;
   }
-  return true;
+  return !left_out || search(1.0) != SearchInTime::End::kStopped;
 }
 
 }  // namespace halfstep

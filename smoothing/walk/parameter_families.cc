@@ -1,9 +1,10 @@
 #include "smoothing/walk/parameter_families.h"
 
-#include <algorithm>
 #include <limits>
 
 #include "smoothing/walk/homotopy_parameters.h"
+#include "smoothing/walk/parameter_ranges.h"
+#include "smoothing/walk/parameter_row_checks.h"
 #include "wpg/nth.h"
 
 namespace halfstep {
@@ -14,35 +15,8 @@ using enum ParameterOf;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 using Row = ParameterFamilyTraits;
-using Bounds = std::array<double, 2>;
 using Choice = ParameterChoice;
 using Values = HomotopyParameters;
-
-// Ranges of what methods choose from. The planned value is in all of them.
-std::pair<double, double> UpFromPlanned(const Row&, const Bounds&, double planned) {
-  return {planned, kInfinity};
-}
-std::pair<double, double> UpToPlanned(const Row&, const Bounds& bounds, double planned) {
-  return {bounds[0], planned};
-}
-std::pair<double, double> OfPlanned(const Row&, const Bounds& bounds, double planned) {
-  return {bounds[0] * planned, bounds[1] * planned};
-}
-std::pair<double, double> Between(const Row&, const Bounds& bounds, double planned) {
-  return {std::min(bounds[0], planned), std::max(bounds[1], planned)};
-}
-std::pair<double, double> UpToMost(const Row& row, const Bounds& bounds, double planned) {
-  return {std::min(bounds[0], planned), row.most};
-}
-std::pair<double, double> AboutPlanned(const Row& row, const Bounds& bounds, double planned) {
-  return {std::max(row.least, planned - bounds[0]), std::min(row.most, planned + bounds[0])};
-}
-std::pair<double, double> Anywhere(const Row& row, const Bounds&, double) {
-  return {row.least, row.most};
-}
-std::pair<double, double> AboutZero(const Row&, const Bounds& bounds, double) {
-  return {-bounds[0], bounds[0]};
-}
 
 // The last footstep of each foot stays, so that the walk ends where it was planned to end. So do
 // those that are not followed by one of the other and one of the same foot, because what they bear
@@ -82,7 +56,7 @@ constexpr std::array<Row, kNumParameterFamilies> kRows = {{
      .most = kInfinity,
      .always = true,
      .key = "overlaps",
-     .range_of = UpFromPlanned},
+     .range_of = ranges::UpFromPlanned},
     {.family = ParameterFamily::kHeightScale,
      .name = "height_scale",
      .of = kStep,
@@ -100,7 +74,7 @@ constexpr std::array<Row, kNumParameterFamilies> kRows = {{
      .key = "heights",
      .key_meaning = "foot-height scales are variables beside the overlaps",
      .bound_keys = {{{"least_height_scale", "of the planned height", 0.1, 0.01, 1}}},
-     .range_of = UpToPlanned},
+     .range_of = ranges::UpToPlanned},
     {.family = ParameterFamily::kDuration,
      .name = "duration",
      .unit = "s",
@@ -119,7 +93,7 @@ constexpr std::array<Row, kNumParameterFamilies> kRows = {{
      .key_meaning = "durations of half-steps are variables beside the overlaps",
      .bound_keys = {{{"least_duration", kOfDuration, 0.5, 0.2, 1},
                      {"most_duration", kOfDuration, 1.5, 1, 5}}},
-     .range_of = OfPlanned},
+     .range_of = ranges::OfPlanned},
     {.family = ParameterFamily::kSupportPoint,
      .name = "support_point",
      .unit = "m",
@@ -137,7 +111,7 @@ constexpr std::array<Row, kNumParameterFamilies> kRows = {{
      .key_meaning = "support points are variables beside the overlaps",
      .bound_keys = {{{"least_support_point_m", kOfSupport, -0.03, -1, 1, "m", kWidth},
                      {"most_support_point_m", kOfSupport, 0.08, -1, 1, "m", kWidth}}},
-     .range_of = Between},
+     .range_of = ranges::Between},
     {.family = ParameterFamily::kViaLateral,
      .name = "via_lateral",
      .unit = "m",
@@ -154,7 +128,7 @@ constexpr std::array<Row, kNumParameterFamilies> kRows = {{
      .key_meaning = "distances of via points are variables beside the overlaps",
      .bound_keys = {{{"least_via_lateral_m", kOfVia, 0.18, 0.01, 1, "m", kWidth},
                      {"most_via_lateral_m", kOfVia, 0.3, 0.01, 1, "m", kWidth}}},
-     .range_of = Between},
+     .range_of = ranges::Between},
     {.family = ParameterFamily::kFootRamp,
      .name = "foot_ramp",
      .of = kHalfStep,
@@ -169,7 +143,7 @@ constexpr std::array<Row, kNumParameterFamilies> kRows = {{
      .key = "foot_ramps",
      .key_meaning = "ramps of the foot's speed are variables beside the overlaps",
      .bound_keys = {{{"least_foot_ramp", "of a foot's motion; at most it is 0.5", 0.2, 0.1, 0.5}}},
-     .range_of = UpToMost},
+     .range_of = ranges::UpToMost},
     {.family = ParameterFamily::kFootDelay,
      .name = "foot_delay",
      .of = kHalfStep,
@@ -185,7 +159,7 @@ constexpr std::array<Row, kNumParameterFamilies> kRows = {{
      .key_meaning = "delays of the foot's horizontal motion are variables beside the overlaps",
      .bound_keys = {{{"least_foot_delay", kOfDelay, 0.02, 0, 0.2},
                      {"most_foot_delay", kOfDelay, 0.2, 0, 0.2}}},
-     .range_of = Between},
+     .range_of = ranges::Between},
     {.family = ParameterFamily::kLiftShare,
      .name = "lift_share",
      .of = kHalfStep,
@@ -200,7 +174,7 @@ constexpr std::array<Row, kNumParameterFamilies> kRows = {{
      .key = "lift_shares",
      .key_meaning = "how fast feet rise and sink are variables beside the overlaps",
      .bound_keys = {{{"least_lift_share", "of a foot's flight; at most it is 1", 0.4, 0.2, 1}}},
-     .range_of = UpToMost},
+     .range_of = ranges::UpToMost},
     {.family = ParameterFamily::kViaAlong,
      .name = "via_along",
      .unit = "m",
@@ -218,7 +192,7 @@ constexpr std::array<Row, kNumParameterFamilies> kRows = {{
      .bound_keys = {{{"most_via_along_m",
                       "of the via point from where it is planned, along the support sole's x", 0.08,
                       0, 0.5, "m", kLength}}},
-     .range_of = AboutPlanned},
+     .range_of = ranges::AboutPlanned},
     {.family = ParameterFamily::kZmpShift,
      .name = "zmp_shift",
      .of = kHalfStep,
@@ -235,7 +209,7 @@ constexpr std::array<Row, kNumParameterFamilies> kRows = {{
      .key_meaning = "how long ZMPs shift is variable beside the overlaps",
      .bound_keys = {{{"least_zmp_shift", kOfShift, 0.02, 0.01, 0.3},
                      {"most_zmp_shift", kOfShift, 0.3, 0.01, 0.3}}},
-     .range_of = Between},
+     .range_of = ranges::Between},
     {.family = ParameterFamily::kZmpBumpRamp,
      .name = "zmp_bump_ramp",
      .of = kHalfStep,
@@ -251,7 +225,7 @@ constexpr std::array<Row, kNumParameterFamilies> kRows = {{
      .key_meaning = "ramps of ZMPs' bumps are variables beside the overlaps",
      .bound_keys = {{{"least_zmp_bump_ramp", "of a ZMP's bump; at most it is 1, a round bump", 0.1,
                       0.1, 1}}},
-     .range_of = UpToMost},
+     .range_of = ranges::UpToMost},
     {.family = ParameterFamily::kFootstepX,
      .name = "footstep_x",
      .unit = "m",
@@ -271,7 +245,7 @@ constexpr std::array<Row, kNumParameterFamilies> kRows = {{
      .key_meaning = "places and yaws of footsteps are variables, but of the last two",
      .bound_keys = {{{"most_footstep_x_m", "of the move of a footstep along its x, to either side",
                       0.05, 0, 0.5, "m", kLength}}},
-     .range_of = AboutZero},
+     .range_of = ranges::AboutZero},
     {.family = ParameterFamily::kFootstepY,
      .name = "footstep_y",
      .unit = "m",
@@ -289,7 +263,7 @@ constexpr std::array<Row, kNumParameterFamilies> kRows = {{
      .chosen = &Choice::footsteps,
      .bound_keys = {{{"most_footstep_y_m", "of the move of a footstep along its y, to either side",
                       0.03, 0, 0.5, "m", kLength}}},
-     .range_of = AboutZero},
+     .range_of = ranges::AboutZero},
     {.family = ParameterFamily::kFootstepYaw,
      .name = "footstep_yaw",
      .unit = "rad",
@@ -307,7 +281,7 @@ constexpr std::array<Row, kNumParameterFamilies> kRows = {{
      .chosen = &Choice::footsteps,
      .bound_keys = {{{"most_footstep_yaw_rad", "of the turn of a footstep, to either side", 0.1, 0,
                       1, "rad"}}},
-     .range_of = AboutZero},
+     .range_of = ranges::AboutZero},
     {.family = ParameterFamily::kRiseBegin,
      .name = "rise_begin",
      .of = kHalfStep,
@@ -324,7 +298,7 @@ constexpr std::array<Row, kNumParameterFamilies> kRows = {{
      .least = 0.0,
      .most = 0.75,
      .chosen = &Choice::heights,
-     .range_of = Anywhere},
+     .range_of = ranges::Anywhere},
     {.family = ParameterFamily::kRiseEnd,
      .name = "rise_end",
      .of = kHalfStep,
@@ -341,65 +315,13 @@ constexpr std::array<Row, kNumParameterFamilies> kRows = {{
      .least = 0.85,
      .most = 1.0,
      .chosen = &Choice::heights,
-     .range_of = Anywhere},
+     .range_of = ranges::Anywhere},
 }};
 
-// The number of a half-step that a row is has to be told where its part has one, and nowhere else.
-constexpr bool TellsItsNumber(const Row& row) {
-  const bool number = row.number != nullptr, shape = row.shape != nullptr;
-  const bool move = row.move != nullptr;
-  if (row.factor && row.part != ParameterPart::kState) return false;
-  switch (row.part) {
-    case ParameterPart::kBegin:
-      return !number && !shape && !move;
-    case ParameterPart::kDuration:
-      return number && !shape && !move;
-    case ParameterPart::kState:
-      return number != shape && !move;
-    case ParameterPart::kProfile:
-      return !number && shape && !move;
-    case ParameterPart::kFootstep:
-      return !number && !shape && move;
-  }
-  return false;
-}
-
-// Whether another row has the same name, column, key, place of values or of the flag.
-constexpr bool IsOneOfAKind(const Row& row) {
-  return std::ranges::all_of(kRows, [&row](const Row& other) {
-    if (other.family == row.family) return true;
-    const bool same_flag = row.chosen != nullptr && other.chosen == row.chosen;
-    return other.name != row.name && other.column != row.column &&
-           (other.rank != row.rank || (other.of == kJunction) != (row.of == kJunction)) &&
-           (row.key.empty() || other.key != row.key) &&
-           (row.values == nullptr || other.values != row.values) &&
-           (!same_flag || row.key.empty() || other.key.empty());
-  });
-}
-
-constexpr bool IsComplete(const Row& row) {
-  return !row.name.empty() && !row.column.empty() && !row.meaning.empty() && row.least < row.most &&
-         row.range_of != nullptr && TellsItsNumber(row) &&
-         (row.of == kJunction) == (row.part == ParameterPart::kBegin) &&
-         (row.of_form || row.values != nullptr) &&
-         (row.always || row.range_of == Anywhere || row.bounds().size() > 0) &&
-         (row.always || !row.key.empty() || row.chosen != nullptr) &&
-         (row.always || row.key.empty() || !row.key_meaning.empty());
-}
-
-constexpr bool StandsInItsPlace(size_t i) {
-  return kRows[i].family == static_cast<ParameterFamily>(i);
-}
-
-template <size_t... kIndex>
-constexpr bool CheckRows(std::index_sequence<kIndex...>) {
-  static_assert((StandsInItsPlace(kIndex) && ...),
-                "a family has no row, or the row is not in the order of ParameterFamily");
-  static_assert((IsComplete(kRows[kIndex]) && ...), "a row leaves out what it has to say");
-  static_assert((IsOneOfAKind(kRows[kIndex]) && ...), "two rows say the same");
-  return true;
-}
-static_assert(CheckRows(std::make_index_sequence<kRows.size()>()));
+static_assert(AreInOrder(kRows),
+              "a family has no row, or the row is not in the order of ParameterFamily");
+static_assert(AreComplete(kRows), "a row leaves out what it has to say");
+static_assert(AllDiffer(kRows), "two rows say the same");
 
 }  // namespace
 

@@ -35,6 +35,15 @@ struct BeforeStairs {
   std::optional<Place> place;
 };
 
+// A form of half-steps that leads up treads of 10 cm.
+void LiftHigher(ExperimentConfig* config) {
+  config->half_step.via_height = 0.12;
+  config->half_step.foot_delay = 0.15;
+  config->half_step.lift_share = 0.6;
+  config->half_step.rise_end = 0.85;
+  config->half_step.crouch = 0.01;
+}
+
 StepSet SetOf(const ExperimentConfig& config) {
   StepSet set{.prototype = PrototypeOf(config), .placements = {}, .on_levels = true};
   for (const double x : {0.25, 0.28, 0.3}) {
@@ -46,11 +55,7 @@ StepSet SetOf(const ExperimentConfig& config) {
 
 TEST(CertificateQuery, WhatIsFreeIsCertified) {
   BeforeStairs stairs(0.1);
-  stairs.config.half_step.via_height = 0.12;
-  stairs.config.half_step.foot_delay = 0.15;
-  stairs.config.half_step.lift_share = 0.6;
-  stairs.config.half_step.rise_end = 0.85;
-  stairs.config.half_step.crouch = 0.01;
+  LiftHigher(&stairs.config);
   const StepSet set = SetOf(stairs.config);
   const CertificateQuery query(set, stairs.Evaluator(), stairs.config.smoothing.certification);
   const HalfStepCertifier certifier(stairs.place->robot, stairs.place->scene, stairs.config);
@@ -81,6 +86,31 @@ TEST(CertificateQuery, WhatIsFreeIsCertified) {
   }
   EXPECT_GE(free, 5);
   EXPECT_GE(refused, 1);
+}
+
+// Where intervals may not be bisected nothing is decided, though no instant speaks against it.
+TEST(CertificateQuery, WhatIsNotProvedIsNotFree) {
+  BeforeStairs stairs(0.1);
+  LiftHigher(&stairs.config);
+  const StepSet set = SetOf(stairs.config);
+  const Foothold X_WS({-0.6, 0.0, 0.0}, 0.0);
+  const CertificateQuery fine(set, stairs.Evaluator(), stairs.config.smoothing.certification);
+  EXPECT_TRUE(fine.DownIsFree(1, Side::kLeft, X_WS));
+  const CertificateQuery coarse(set, stairs.Evaluator(), {.resolution = 10.0, .longest = 10.0});
+  EXPECT_FALSE(coarse.DownIsFree(1, Side::kLeft, X_WS));
+}
+
+// A place is beside the left sole, and across the right one.
+TEST(CertificateQuery, IsRememberedBySupport) {
+  BeforeStairs stairs(0.1);
+  LiftHigher(&stairs.config);
+  StepSet set = SetOf(stairs.config);
+  set.placements = {Foothold::Level({0.25, -0.2, 0.0}), Foothold::Level({0.25, 0.2, 0.0})};
+  const Foothold X_WS({-0.6, 0.0, 0.0}, 0.0);
+  ASSERT_EQ(set.Placement(0, Side::kLeft), set.Placement(1, Side::kRight));
+  const CertificateQuery query(set, stairs.Evaluator(), stairs.config.smoothing.certification);
+  EXPECT_TRUE(query.DownIsFree(0, Side::kLeft, X_WS));
+  EXPECT_FALSE(query.DownIsFree(1, Side::kRight, X_WS));
 }
 
 TEST(CertificateQuery, AFootOverAnEdgeIsNotBorne) {

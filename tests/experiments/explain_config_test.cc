@@ -82,6 +82,7 @@ TEST(ExplainConfig, DefaultsAndKeysAreThoseOfAResolvedConfig) {
                                           "half_step.rise_end",
                                           "half_step.crouch_m",
                                           "goal.level",
+                                          "planner.cost",
                                           "planner.free_by",
                                           "planner.moving",
                                           "footsteps.N.rest_s",
@@ -93,6 +94,7 @@ TEST(ExplainConfig, DefaultsAndKeysAreThoseOfAResolvedConfig) {
     *on = {"floor", 0.0};
   }
   config.goal.level = "floor";
+  config.planner.cost = "steps";
   config.planner.free_by = "certificates";
   config.planner.moving = "everywhere";
   config.footsteps[0].rest = config.footsteps[0].rest_on_one_foot = 1.0;

@@ -77,7 +77,7 @@ TEST(PlanInTime, TheDefaultPlannerKnowsTimeUnlessItsCostIsAnEstimate) {
     const Outcome outcome =
         Halfstep(place.path(), {"plan", config, "--json", "--set", "planner.name=best", "--set",
                                 "planner.unimproved_nodes=none", "--set",
-                                "planner.improving_effort=0.02", "--set", set});
+                                "planner.improving_effort=0.1", "--set", set});
     return nlohmann::json::parse(outcome.out);
   };
   const auto best = plan("seed=1");

@@ -12,27 +12,32 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-// Four half-steps straight ahead, `longest` [m] at most, on coarse cells.
-std::string SentenceOf(const TemporaryFolder& place, const std::string& scene,
-                       const std::string& longest, const std::string& more = "",
-                       PlanStatus status = PlanStatus::kNoPlan) {
+// A plan with half-steps straight ahead, `longest` [m] at most, on coarse cells; `widest` [m] is
+// where feet land at the side.
+PlannedWalk PlanAmong(const TemporaryFolder& place, const std::string& scene,
+                      const std::string& longest, const std::string& widest = "-0.21") {
   WriteText(place / "scene.yaml", scene);
   const std::string config =
       WriteText(place / "walk.yaml",
                 "robot: hrp2\nscene: scene.yaml\ngoal: {x_m: 1, y_m: 0, radius_m: 0.15}\n"
                 "step_set: {x_min_m: 0, x_max_m: " +
-                    longest +
-                    ", y_min_m: -0.21, y_max_m: -0.21,\n"
+                    longest + ", y_min_m: " + widest +
+                    ", y_max_m: -0.21,\n"
                     "           spacing_m: " +
                     longest +
                     ", yaws_rad: [0]}\n"
                     "swept_volumes: {cell_m: 0.03, displacement_m: 0.03, cache: cache}\n"
                     "planner: {unimproved_nodes: 0, workspace_m: [-0.5, -0.6, 1.5, 0.6]}\n"
-                    "smoothing: {methods: []}\n" +
-                    more);
+                    "smoothing: {methods: []}\n");
   const ExperimentConfig read = LoadConfig(config, {});
-  const PlannedWalk walk = PlanWalk(read, LoadPlace(read), {});
-  EXPECT_EQ(walk.plan.status, status) << walk.plan.sentence;
+  return PlanWalk(read, LoadPlace(read), {});
+}
+
+// Why there is none.
+std::string SentenceOf(const TemporaryFolder& place, const std::string& scene,
+                       const std::string& longest) {
+  const PlannedWalk walk = PlanAmong(place, scene, longest);
+  EXPECT_EQ(walk.plan.status, PlanStatus::kNoPlan) << walk.plan.sentence;
   return walk.plan.sentence;
 }
 
@@ -69,6 +74,17 @@ TEST(PlanWords, ADitchIsToldAsNoStepArea) {
                          "[0.3, 3]]}]\n",
                          "0.2"),
               HasSubstr(" half-steps refused nearest to the goal land on no-step areas"));
+}
+
+TEST(PlanWords, AWayAroundIsToldWithWhatNoHalfStepLeadsOver) {
+  const TemporaryFolder place;
+  const std::string bar = "obstacles: [{name: bar, box: {size_m: [0.02, 0.4, 0.04]}, pose: {xyz: ";
+  const PlannedWalk around = PlanAmong(place, bar + "[0.5, 0.1, 0]}}]\n", "0.16", "-0.37");
+  ASSERT_EQ(around.plan.status, PlanStatus::kSolved) << around.plan.sentence;
+  EXPECT_THAT(around.detour, HasSubstr("'bar' is 0.02 m high and 0.02 m deep: straight over it"));
+  const PlannedWalk past = PlanAmong(place, bar + "[0.5, 1.1, 0]}}]\n", "0.16", "-0.37");
+  ASSERT_EQ(past.plan.status, PlanStatus::kSolved) << past.plan.sentence;
+  EXPECT_EQ(past.detour, "");
 }
 
 TEST(PlanWords, WhatMovesIsNamedWithTheTimeFromWhichItRests) {

@@ -245,7 +245,7 @@ TEST(ScaledDefaults, AreOfKeysThatThereAre) {
         }
       };
   count(formulas, values);
-  EXPECT_EQ(scaled, 35);
+  EXPECT_EQ(scaled, 37);
 }
 
 TEST(ScaledDefaults, GoByTheLegUnlessAKeySaysOtherwise) {

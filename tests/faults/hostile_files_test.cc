@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 
 #include "experiments/commands/commands.h"
+#include "experiments/plot/canvas.h"
 #include "experiments/report/report_page.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/run_check.h"
@@ -110,6 +111,10 @@ TEST(HostileFiles, NoOutputFollowsALink) {
       {"export", "precious", "--format", "csv", "--out", "link", "--overwrite"}};
   if (HasReport()) {
     commands.push_back({"report", "precious", "--out", "planted.html", "--overwrite"});
+  }
+  fs::create_symlink("thesis", place / "planted.pdf");
+  if (plot::WhyNoPlots().empty()) {
+    commands.push_back({"plot", "precious", "planted.pdf", "--overwrite"});
   }
   for (const std::vector<std::string>& command : commands) {
     const Outcome outcome = Halfstep(place.path(), command);

@@ -36,6 +36,12 @@ bool IsMeaningful(const ClientMessage& message) {
     return frame->age >= 0 && (!frame->goal || frame->goal->norm() <= 2e3);
   }
   if (const auto* edit = std::get_if<Edit>(&message)) {
+    if (const auto* command = std::get_if<Command>(edit)) {
+      const ScriptEvent& event = command->event;
+      return Commands(event) && (event.what != "walk" || event.velocity.size() == 3) &&
+             (event.what != "follow" || IsPath(event.path)) &&
+             (event.what != "footsteps" || !event.footsteps.empty());
+    }
     const auto* carry = std::get_if<Carry>(edit);
     return carry == nullptr || (carry->obstacle < 2 && carry->to.norm() <= 2e3);
   }

@@ -11,6 +11,7 @@
 #include "experiments/live/judged_promise.h"
 #include "experiments/live/messages.h"
 #include "experiments/live/spare_boxes.h"
+#include "experiments/run/certified_half_steps.h"
 #include "experiments/verify/verify_run.h"
 #include "tests/live/small_episode.h"
 #include "tests/refusal_of.h"
@@ -103,7 +104,7 @@ TEST(LevelEpisode, AnObstacleInTheWayIsAllThatCountsBeyondTheGround) {
   with.obstacles = {world.place.scene.obstacles[0]};
   with.obstacles[0].motion = {.error = 0.005, .speed = 0.1, .horizon = 1.0};
   const auto without = half_steps.Among(empty);
-  int free = 0, refused = 0, slow = 0;
+  int free = 0, refused = 0, slow = 0, not_lifted = 0;
   for (const double y : {0.9, 0.55, 0.5, 0.45, 0.4, 0.35, 0.3}) {
     with.obstacles[0].X_WO.translation().y() = y;
     const auto among = half_steps.Among(with);
@@ -118,11 +119,45 @@ TEST(LevelEpisode, AnObstacleInTheWayIsAllThatCountsBeyondTheGround) {
       const bool if_it_rested = at_rest->DownIsFree(i, Side::kLeft, X_WS);
       EXPECT_LE(is_free, if_it_rested);  // it counts wherever it may be
       slow += if_it_rested && !is_free ? 1 : 0;
+      if (y != 0.4 || !without->UpIsFree(i, Side::kLeft, X_WS)) continue;
+      not_lifted += among->UpIsFree(i, Side::kLeft, X_WS) ? 0 : 1;
     }
   }
   EXPECT_GT(free, 0);
   EXPECT_GT(refused, 0);
   EXPECT_GT(slow, 0);
+  EXPECT_GT(not_lifted, 0);
+}
+
+// Where no obstacle is, half-steps are free that are proved on the ground, and no others.
+TEST(LevelEpisode, WhatIsNotProvedOnTheGroundIsNotFree) {
+  OnLevels world;
+  // Soles that land on the platform come nearer to it than that before they are where they land.
+  world.config.experiment.smoothing.limits.demanded_of(MarginFamily::kFloor) = 0.04;
+  const FreeHalfSteps half_steps(world.place, world.config.experiment);
+  const Scene empty = world.place.scene.Emptied();
+  const auto query = half_steps.Among(empty);
+  const HalfStepCertifier certifier(world.place.robot, empty, world.config.experiment);
+  const StepSet& set = half_steps.set();
+  const PlanRequest request = half_steps.Request(*query);
+  const Foothold X_WS({0.0, 0.1, 0.0}, 0.0);
+  int free = 0, no_down = 0, no_up = 0;
+  for (int i = 0; i < set.size(); i += 2) {
+    const Pose2 X_WF = (X_WS * set.Placement(i, Side::kLeft)).Planar();
+    const double height = request.ground(X_WF, X_WS.height);
+    if (!std::isfinite(height)) continue;
+    HalfStep down = set.Down(i, Side::kLeft), up = set.Up(i, Side::kLeft);
+    down.X_SF.height = height - X_WS.height;
+    up.X_SF.height = X_WS.height - height;
+    const bool may_land = certifier.Certifies(down, X_WS);
+    const bool may_lift = certifier.Certifies(up, {X_WF, height});
+    EXPECT_EQ(query->DownIsFree(i, Side::kLeft, X_WS), may_land) << i;
+    EXPECT_EQ(query->UpIsFree(i, Side::kLeft, X_WS), may_lift) << i;
+    free += may_land && may_lift, no_down += !may_land, no_up += !may_lift;
+  }
+  EXPECT_GT(free, 0);
+  EXPECT_GT(no_down, 0);
+  EXPECT_GT(no_up, 0);
 }
 
 // On flat ground a half-step is the same wherever it is; a tread ends.

@@ -35,6 +35,10 @@ enum class SceneKind : int {
 };
 constexpr int kNumSceneKinds = 15;  ///< on the flat floor
 constexpr int kNumLevelKinds = 4;   ///< after these
+/// The kinds over levels, one after the other and again from the first.
+inline SceneKind LevelKind(unsigned k) {
+  return static_cast<SceneKind>(kNumSceneKinds + static_cast<int>(k) % kNumLevelKinds);
+}
 inline bool IsOverLevels(SceneKind kind) { return static_cast<int>(kind) >= kNumSceneKinds; }
 const char* NameOf(SceneKind kind);
 

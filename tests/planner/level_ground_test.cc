@@ -270,5 +270,38 @@ TEST(LevelBorders, TellsWhatIsNearestAndHowFarASoleReachesOver) {
   EXPECT_TRUE(LevelBorders(FlatGround()).empty());
 }
 
+// Where the tread ends below the next, none of its own edge is a border: a sole there is as deep in
+// the next as that is.
+TEST(LevelBorders, AnEdgeBelowWhatIsInTheWayIsNone) {
+  const LevelGround ground(
+      {Block("tread", Box2(0, 1, -1, 1), 0.1), Block("next", Box2(0.6, 1, -1, 1), 0.2)}, true);
+  const LevelBorders borders(ground);
+  const LevelBorders::Nearest nearest =
+      borders.NearestTo(Box2(-0.1, 0.1, -0.05, 0.05), {0.85, 0, 0}, 1);
+  EXPECT_NEAR(nearest.distance, -0.35, 1e-12);
+  EXPECT_EQ(nearest.solid, 1);
+}
+
+// Places are whole nanometres: a sole may be one of them inside a border, and not one beyond it.
+TEST(LevelBorders, ANanometreFromABorderIsInside) {
+  const LevelGround ground(
+      {Block("tread", Box2(0, 0.4, -1, 1), 0.1), Block("same", Box2(0.4, 0.8, -1, 1), 0.1),
+       Block("next", Box2(0.8, 1.2, -1, 1), 0.2)},
+      true);
+  const LevelBorders borders(ground);
+  const Matrix2Xd sole = Box2(-0.1, 0.1, -0.05, 0.05);
+  for (const double border : {0.1, 0.7}) {  // where the sole is then
+    const double inwards = border < 0.4 ? 1.0 : -1.0;
+    for (const int nanometres : {-1, 1, 3}) {
+      const Pose2 X{border + 1e-9 * inwards * nanometres, 0, 0};
+      const double told = borders.NearestTo(sole, X, 1).distance;
+      EXPECT_NEAR(told, nanometres > 0 ? 1e-9 * nanometres : -1e-9, 1e-12) << X.x;
+      EXPECT_EQ(borders.Bears(sole, X, 1), nanometres > 0) << X.x;
+    }
+  }
+  // Corners on the edge that two surfaces share.
+  EXPECT_NEAR(borders.NearestTo(sole, {0.5, 0, 0}, 1).distance, 0.2, 1e-12);
+}
+
 }  // namespace
 }  // namespace halfstep

@@ -25,7 +25,7 @@ namespace {
 const Eigen::Matrix2Xd kOutline = SoleCorners({}, {0.24, 0.14});
 
 // Treads of 0.3 m from x = 0.3 m on, each higher by `rise` than the one before; the last goes on.
-std::shared_ptr<const BlocksGround> Stairs(int count, double rise) {
+std::shared_ptr<const BlocksGround> BlockStairs(int count, double rise) {
   std::vector<GroundSolid> treads;
   for (int k = 0; k < count; ++k) {
     const double x = 0.3 + 0.3 * k, top = (k + 1) * rise;
@@ -133,10 +133,10 @@ TEST(StepSetOnLevels, HasThePlacesOfEachRise) {
 }
 
 TEST(LevelPlanning, LandsOnTheGroundUnderTheElements) {
-  const auto stairs = Stairs(4, 0.15);
+  const auto stairs = BlockStairs(4, 0.15);
   const StepSet set = PlausibleSet();
   const GroundQuery query(set, *stairs);
-  for (const char* planner : {"astar", "astar/classic", "rrt"}) {
+  for (const char* planner : {"best", "astar", "astar/classic", "rrt"}) {
     PlanRequest request = RequestTo({1.6, 0.0, 0.0}, set, query);
     request.ground = [&query](const Pose2& X_WF, double from) {
       return query.HeightAt(X_WF, from);
@@ -161,9 +161,9 @@ TEST(LevelPlanning, LandsOnTheGroundUnderTheElements) {
 }
 
 TEST(LevelPlanning, ClimbsStairs) {
-  const auto stairs = Stairs(4, 0.15);
+  const auto stairs = BlockStairs(4, 0.15);
   const StepSet set = PlausibleSetOn(RisesBetween(HeightsOf(*stairs), 0.2));
-  for (const char* planner : {"astar", "astar/classic", "rrt"}) {
+  for (const char* planner : {"best", "astar", "astar/classic", "rrt"}) {
     const PlanResult result = PlanOn(*stairs, set, planner, 1.6);
     ASSERT_EQ(result.status, PlanStatus::kSolved) << planner << ": " << result.sentence;
     std::array<Foothold, 2> feet = {Foothold::Level({0.0, 0.1, 0.0}),
@@ -184,7 +184,7 @@ TEST(LevelPlanning, ClimbsStairs) {
     const int many = 200;
     EXPECT_NE(PlanOn(*stairs, PlausibleSetOn({0.0}), planner, 1.6, many).status,
               PlanStatus::kSolved);
-    EXPECT_NE(PlanOn(*Stairs(2, 0.21), set, planner, 1.6, many).status, PlanStatus::kSolved);
+    EXPECT_NE(PlanOn(*BlockStairs(2, 0.21), set, planner, 1.6, many).status, PlanStatus::kSolved);
   }
 }
 
@@ -219,7 +219,7 @@ TEST(LevelPlanning, CellsDifferByHeight) {
 
 TEST(LevelPlanning, TheBoxSaysThatItKnowsOneHeightOnly) {
   Scene scene;
-  scene.ground = Stairs(2, 0.1);
+  scene.ground = BlockStairs(2, 0.1);
   const Planners all = Planners::Standard();
   for (const std::string& name : all.Names()) {
     EXPECT_EQ(all.Make(name, scene)->knows_levels(), name != "bounding_box") << name;

@@ -170,9 +170,10 @@ std::vector<TimeInterval> TimesOf(const std::vector<Footstep>& footsteps) {
   return times;
 }
 
-PlanResult PlanBy(const char* planner, const PlanRequest& request, std::uint64_t seed = 1) {
+PlanResult PlanBy(const char* planner, const PlanRequest& request, std::uint64_t seed = 1,
+                  const PlannerOptions& options = {}) {
   std::mt19937_64 random(seed);
-  return Planners::Standard().Make(planner, {})->Plan(request, random);
+  return Planners::Standard().Make(planner, {}, options)->Plan(request, random);
 }
 
 TEST(PlanningInTime, ArrivesAsEarlyAsABruteSearchInTimeAndNeverWhereItIsShut) {
@@ -254,6 +255,12 @@ TEST(PlanningInTime, WhoCameFirstInTheSearchDoesNotHideWhoComesEarlier) {
       const PlanResult plan = PlanBy(planner, request);
       EXPECT_EQ(plan.status == PlanStatus::kSolved, std::isfinite(earliest)) << planner << opens;
     }
+    // Whose user wants no weight of 1.
+    PlannerOptions greedy;
+    greedy.astar.weights = {5.0};
+    EXPECT_EQ(PlanBy("astar", request, 1, greedy).status == PlanStatus::kSolved,
+              std::isfinite(earliest))
+        << opens;
     solved += std::isfinite(earliest);
   }
   EXPECT_GT(solved, 0);

@@ -56,6 +56,36 @@ TEST(ClientMessage, IsReadAsItIsMeant) {
   EXPECT_TRUE(std::holds_alternative<End>(reader.Read(R"({"type":"end"})")));
 }
 
+TEST(ClientMessage, CommandsAreEventsOfAScript) {
+  for (const char* source : {"stand_in", "client"}) {
+    const ClientMessageReader reader = ReaderOf(source);
+    const auto event = [&](const char* text) {
+      return std::get<Command>(std::get<Edit>(reader.Read(text))).event;
+    };
+    const ScriptEvent walk =
+        event(R"({"type":"walk","vx_m_s":0.1,"vy_m_s":-0.05,"yaw_rad_s":0.2})");
+    EXPECT_EQ(walk.what, "walk");
+    EXPECT_EQ(walk.velocity, (std::vector<double>{0.1, -0.05, 0.2}));
+    const ScriptEvent follow =
+        event(R"({"type":"follow","path_m":[[0,0],[1,0.5]],"speed_m_s":0.1})");
+    EXPECT_EQ(follow.path.col(1), Eigen::Vector2d(1, 0.5));
+    EXPECT_EQ(follow.speed, 0.1);
+    const ScriptEvent listed = event(
+        R"({"type":"footsteps","footsteps":[{"foot":"right","x_m":0.2,"y_m":-0.1,"yaw_deg":90}]})");
+    ASSERT_EQ(listed.footsteps.size(), 1U);
+    EXPECT_EQ(listed.footsteps[0].side, Side::kRight);
+    EXPECT_NEAR(listed.footsteps[0].X_WF.yaw, M_PI / 2, 1e-15);
+  }
+}
+
+// Other policies know no courses.
+TEST(ClientMessage, CommandsAreOfThePolicyReplan) {
+  LiveOptions options;
+  options.policy = "paper";
+  const ClientMessageReader reader(TwoBars(), options);
+  EXPECT_THROW(reader.Read(R"({"type":"walk","vx_m_s":0,"vy_m_s":0,"yaw_rad_s":0})"), InputError);
+}
+
 TEST(ClientMessage, AMeasurementTellsEverythingThatIsThere) {
   const auto frame = std::get<MeasuredFrame>(
       ReaderOf("client").Read(R"({"type":"measured","age_s":0.01,"obstacles":[
@@ -98,6 +128,19 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"stand_in", R"({"type":"goal","x_m":1e999,"y_m":2})", "too large"},
         Refused{"stand_in", R"({"type":"goal","x_m":1e308,"y_m":2})", "goal.x_m: is not a number"},
         Refused{"stand_in", R"({"type":"goal","x_m":"1","y_m":2})", "goal.x_m: is not a number"},
+        Refused{"stand_in", R"({"type":"walk","vx_m_s":0.1,"vy_m_s":0})",
+                "walk.yaw_rad_s: is missing"},
+        Refused{"stand_in", R"({"type":"walk","vx_m_s":3,"vy_m_s":0,"yaw_rad_s":0})",
+                "walk.vx_m_s: is not a number in its range (valid: from -2 to 2)"},
+        Refused{"stand_in", R"({"type":"follow","path_m":[[0,0]],"speed_m_s":0.1})",
+                "follow.path_m: is no list of 2 to 1000 lists"},
+        Refused{"stand_in", R"({"type":"follow","path_m":[[0,0],[0,0]],"speed_m_s":0.1})",
+                "follow.path_m: has a point twice in a row"},
+        Refused{"stand_in", R"({"type":"follow","path_m":[[0,0],[1]],"speed_m_s":0.1})",
+                "follow.path_m: item 2 is no list of 2"},
+        Refused{"stand_in", R"({"type":"footsteps","footsteps":[]})", "from 1 to 100"},
+        Refused{"stand_in", R"({"type":"footsteps","footsteps":[{"foot":"middle"}]})",
+                "footsteps[0].foot: 'middle' (valid: left, right)"},
         Refused{"stand_in", R"({"type":"carry","obstacle":"bat","xyz_m":[0,0,0]})",
                 "'bat' is not in the scene"},
         Refused{"stand_in", R"({"type":"carry","obstacle":"bar","xyz_m":[0,0]})",

@@ -137,6 +137,34 @@ TEST(EditedSensor, TheScriptSaysWhatPeopleDid) {
   }
 }
 
+// A command counts from the next frame on, in place of the goal, until a goal is set; the script
+// has it. Of those that wait only the last is one.
+TEST(EditedSensor, CommandsAreInTheScript) {
+  Edited edited;
+  EXPECT_EQ(edited.At(0.4).course, nullptr);
+  const auto command = [](double forward) {
+    Command one;
+    one.event.what = "walk";
+    one.event.velocity = {forward, 0, 0};
+    return Edit(one);
+  };
+  edited.inbox.Add(command(0.05));
+  edited.inbox.Add(command(0.1));
+  edited.At(0.8);
+  const World world = edited.At(1.2);
+  ASSERT_NE(world.course, nullptr);
+  EXPECT_EQ(world.course->velocity[0], 0.1);
+  ASSERT_EQ(edited.sensor.truth().Script().size(), 1U);
+  LiveConfig again = edited.config;
+  again.live.script = edited.sensor.truth().Script();
+  const std::string text = WriteYaml([&](Fields& fields) { DeclareFields(fields, &again); });
+  const LiveConfig read = ParseLiveConfig("again.yaml", text, {});
+  EXPECT_EQ(read.live.script[0].velocity, (std::vector<double>{0.1, 0, 0}));
+  edited.inbox.Add(Edit(MoveGoal{{2.0, 0.5}}));
+  edited.At(1.6);
+  EXPECT_EQ(edited.At(2.0).course, nullptr);
+}
+
 TEST(EditedSensor, RefusesToCarryWhatIsNotThere) {
   Edited edited;
   edited.inbox.Add(Edit(Carry{1, {0, 0, 0}, 0.0}));
@@ -181,6 +209,26 @@ TEST(ClientSensor, FramesAreAsOldAsClientsSay) {
   EXPECT_EQ(frame->world->scene.obstacles[0].motion.measured_at, frame->taken);
   EXPECT_EQ(frame->world->areas, (std::vector<size_t>{0, 1}));
   EXPECT_FALSE(sensor.Next(1.0));
+}
+
+// Where clients measure they command as well. A goal that is told again ends nothing.
+TEST(ClientSensor, ClientsCommandUntilTheyMoveTheGoal) {
+  const LiveConfig config = ServedConfig("client");
+  ClientInbox inbox;
+  ClientSensor sensor({}, config, &inbox);
+  const auto measured_with_goal = [&](double now, double x) {
+    ClientInbox::Measurement one{steady_clock::now(), {}};
+    one.frame.goal = Eigen::Vector2d(x, 0.0);
+    inbox.Add(one);
+    return sensor.Next(now)->world->course;
+  };
+  Command command;
+  command.event.what = "walk";
+  command.event.velocity = {0.1, 0, 0};
+  EXPECT_EQ(measured_with_goal(1.0, 1.2), nullptr);
+  inbox.Add(Edit(command));
+  ASSERT_NE(measured_with_goal(2.0, 1.2), nullptr);
+  EXPECT_EQ(measured_with_goal(3.0, 1.3), nullptr);
 }
 
 TEST(ClientSensor, TheRobotMayArriveOnlyWhenAClientEndsTheEpisode) {

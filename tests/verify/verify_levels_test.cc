@@ -10,6 +10,7 @@
 #include "experiments/verify/distances.h"
 #include "experiments/verify/level_tops.h"
 #include "planner/ground/level_borders.h"
+#include "planner/ground/level_ground.h"
 #include "tests/verify/certificate_forgery.h"
 #include "tests/verify/rows_of.h"
 
@@ -65,6 +66,15 @@ std::vector<CertificateForgery> ForgeriesOnLevels() {
        InGround("[[0.14, -1], [0.7, -1], [0.7, 1], [0.14, 1]]",
                 "[[0.135, -1], [0.7, -1], [0.7, 1], [0.135, 1]]"),
        "foothold: margin"},
+      // The soles reach forward to x = 0.121 m, and 5 mm are demanded.
+      {"RiserNearerThanIsDemanded",
+       InGround("[[0.14, -1], [0.7, -1], [0.7, 1], [0.14, 1]]",
+                "[[0.124, -1], [0.7, -1], [0.7, 1], [0.124, 1]]"),
+       "soles inside their levels: left foot at t = 0 s; smallest 0.003, demanded 0.005"},
+      {"RiserNearerToMovingSoles",
+       InGround("[[0.14, -1], [0.7, -1], [0.7, 1], [0.14, 1]]",
+                "[[0.122, -1], [0.7, -1], [0.7, 1], [0.122, 1]]"),
+       "moving soles and the ground's solids: left foot at t = "},
       // The outline reaches back to x = 0.149 m.
       {"FootOverAnEdge",
        InGround("[[0.14, -1], [0.7, -1], [0.7, 1], [0.14, 1]]",
@@ -105,7 +115,8 @@ TEST_P(ForgedLevels, IsRefusedForItsReason) { ExpectRefused(kOntoPlatform, GetPa
 INSTANTIATE_TEST_SUITE_P(Verify, ForgedLevels, testing::ValuesIn(ForgeriesOnLevels()),
                          [](const auto& info) { return info.param.name; });
 
-// Tiles of two heights, one of which rests on another, and a hole; the floor is below.
+// Tiles of two heights, one of which rests on another, and a hole, below a bridge; the floor is
+// below.
 Scene Tiles() {
   return ParseScene(
       "tiles.yaml",
@@ -115,7 +126,9 @@ Scene Tiles() {
       "  - {name: c, polygon_m: [[0, 1], [0.8, 1], [0.8, 2], [0, 2]], height_m: 0.1}\n"
       "  - {name: d, polygon_m: [[1.2, 0.5], [1.5, 0.5], [1.5, 0.9]], height_m: 0.2,\n"
       "     thickness_m: 0.1}\n"
-      "  - {name: e, polygon_m: [[0.8, 1], [2, 1], [2, 2], [0.8, 2]], height_m: 0.2}\n");
+      "  - {name: e, polygon_m: [[0.8, 1], [2, 1], [2, 2], [0.8, 2]], height_m: 0.2}\n"
+      "  - {name: f, polygon_m: [[0, 0.2], [2, 0.2], [2, 0.5], [0, 0.5]], height_m: 0.6,\n"
+      "     thickness_m: 0.3}\n");
 }
 
 TEST(LevelTops, AreTheLevelsOfThePlanner) {
@@ -154,10 +167,31 @@ TEST(LevelTops, KnowNamesAndWhatRestsOnALevel) {
   const verify::LevelTops levels(scene);
   EXPECT_EQ(levels.HeightNamed("e"), 0.2);
   EXPECT_EQ(levels.HeightNamed("floor"), 0.0);
-  EXPECT_EQ(levels.HeightNamed("f"), std::nullopt);
+  EXPECT_EQ(levels.HeightNamed("g"), std::nullopt);
   EXPECT_EQ(levels.Inside(robot, {1.4, 0.7, 0}, 0.1), -1);  // d is there
   EXPECT_EQ(levels.Inside(robot, {0.5, 0.5, 0}, 0.15), -1);
   EXPECT_GT(levels.Inside(robot, {0.5, 0.9, 0}, 0.1), 0.1);  // across an edge that a and c share
+  EXPECT_GT(levels.Inside(robot, {0.5, 0.3, 0}, 0.1), 0.1);  // below f
+}
+
+// As a part of a heightmap that is too small for a level and happens to be as high as one.
+TEST(LevelTops, AreOfWhatBearsOnly) {
+  const RobotModel& robot = verify::Fig5().robot;
+  LevelSurface low{.name = "low", .polygon = Eigen::Matrix2Xd(2, 4), .height = 0.1};
+  low.polygon << -1, 0, 0, -1, -1, -1, 1, 1;
+  LevelSurface rubble = low;
+  rubble.polygon.row(0).array() += 1.0;
+  const auto inside = [&] {
+    Scene scene;
+    scene.ground = std::make_shared<const LevelGround>(std::vector{low, rubble}, true);
+    return verify::LevelTops(scene).Inside(robot, {-0.3, 0.0, 0.0}, 0.1);
+  };
+  const double with = inside();
+  rubble.bears = false;
+  const double without = inside();
+  EXPECT_GT(without, 0.1);
+  EXPECT_LT(without, 0.3);
+  EXPECT_GT(with, without + 0.3);
 }
 
 // A foot's bodies may touch what their sole is above, and nothing else.
@@ -165,7 +199,7 @@ TEST(Distances, OfAFootAreFromWhatIsHigherThanItsSole) {
   const Scene scene = Tiles();
   const RobotModel& robot = verify::Fig5().robot;
   const verify::Distances distances(robot, scene);
-  ASSERT_EQ(distances.num_obstacles(), 5u);
+  ASSERT_EQ(distances.num_obstacles(), 6u);
   for (size_t b = 0; b < robot.bodies.size(); ++b) {
     const RobotBody& body = robot.bodies[b];
     const bool of_foot = body.leg >= 0 && body.link == 5;

@@ -104,6 +104,17 @@ TEST(RobotMasses, ANegativeInertiaThatIsNegligibleIsToldOnly) {
   EXPECT_THAT(robot.warnings, testing::Contains(HasSubstr("no rigid body has such an inertia")));
 }
 
+// As of a public URDF's lower leg, whose moments are zeros that were rounded.
+TEST(RobotMasses, APointMassMayHaveARoundedZeroForAMoment) {
+  const std::string right = "ixx='0.01' ixy='0' ixz='0' iyy='0.01' iyz='0' izz='0.01'";
+  const RobotModel robot = LoadChanged("name='left_link2'", right,
+                                       "ixx='1e-18' ixy='5e-20' ixz='0' iyy='0' iyz='0' izz='0'");
+  EXPECT_TRUE(robot.masses.known()) << robot.masses.fault;
+  const RobotModel wrong = LoadChanged("name='left_link2'", right,
+                                       "ixx='1e-9' ixy='5e-9' ixz='0' iyy='0' iyz='0' izz='0'");
+  EXPECT_THAT(wrong.masses.fault, HasSubstr("negative moment of inertia -4.525e-09"));
+}
+
 // As of a public URDF whose inertias are in another unit.
 TEST(RobotMasses, AnInertiaBeyondTheRobotsReachIsNoRobotsInertia) {
   const RobotModel robot = LoadChanged("name='left_link2'", "izz='0.01'", "izz='1000'");

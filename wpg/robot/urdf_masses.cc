@@ -1,6 +1,7 @@
 #include "wpg/robot/urdf_masses.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -18,8 +19,9 @@ using Eigen::Vector3d;
 // Rounding of files: inertias have few digits, and thin bodies meet the limit.
 constexpr double kMomentTolerance = 1e-3;
 // A negative moment of inertia counts when it is more than this of those of the body that the link
-// is part of.
+// is part of, and than the link's mass has within a micrometre: point masses have rounded zeros.
 constexpr double kNegligible = 1e-6;
+constexpr double kMicrometre = 1e-6;                     // [m]
 constexpr double kLightest = 10.0, kHeaviest = 20000.0;  // [kg/m³]
 
 // Principal moments of inertia, ascending [kg m²].
@@ -100,7 +102,8 @@ RobotMasses AddUpMasses(const UrdfTree& urdf, const std::vector<LinkAnchor>& anc
   }
   for (size_t i = 0; i < urdf.links.size(); ++i) {
     const Vector3d moments = Moments(urdf.links[i]);
-    const double negligible = kNegligible * body_of(anchors[i]).inertia.trace();
+    const double negligible = std::max(kNegligible * body_of(anchors[i]).inertia.trace(),
+                                       urdf.links[i].mass * kMicrometre * kMicrometre);
     if (!Negative(moments) || -moments[0] <= negligible) continue;
     masses.fault = "link " + urdf.links[i].name + " has the negative moment of inertia " +
                    Formatted("%.4g", moments[0]) + " kg m²";
