@@ -50,7 +50,7 @@ std::vector<HalfStepConfig> HalfStepTable(const HalfStepConfig& own, double high
 std::vector<HalfStepConfig> TableOverObstacle(const HalfStepConfig& own, double top, double size) {
   std::vector<HalfStepConfig> table;
   for (const double longer : {1.0, 1.3}) {
-    for (const double crouch : {0.0, 0.02, 0.04}) {
+    for (const double crouch : {0.0, 0.02, 0.04, 0.08}) {
       for (const double above : {0.02, 0.05}) {
         for (const auto& [delay, lift] : {std::pair(0.15, 0.6), std::pair(0.19, 1.0)}) {
           HalfStepConfig form = own;

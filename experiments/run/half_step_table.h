@@ -18,9 +18,8 @@ double SizeOf(const RobotModel& robot);
 std::vector<HalfStepConfig> HalfStepTable(const HalfStepConfig& own, double highest, double size);
 
 /// Forms of half-steps that lead over an obstacle whose `top` is higher than the floor [m]: of the
-/// config's duration or longer ones, with via points 2 to 5 cm above it, or as high as the
-/// config's, a crouch of 0 to 2 cm, a foot that moves on later or rises sooner. The config's own is
-/// not among them.
+/// config's duration or longer ones, with via points 2 or 5 cm above it, a crouch of 0 to 8 cm, a
+/// foot that moves on later or rises sooner. The config's own is not among them. Lengths as above.
 std::vector<HalfStepConfig> TableOverObstacle(const HalfStepConfig& own, double top, double size);
 
 /// "duration_s: 2.6, via_height_m: 0.17 …": what a form has that differs from another.

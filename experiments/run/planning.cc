@@ -175,7 +175,8 @@ void PlanByVolumes(const Place& place, const PlanningHooks& hooks, PlannedWalk* 
   const CertificateQuery proofs(
       volumes.set, MarginEvaluator(place.robot, resting.scene, walk->config.smoothing.limits),
       walk->config.smoothing.certification);
-  const CrossingQuery crossing(query, proofs, volumes.set, place.robot.sole_outline, over);
+  const CrossingQuery crossing(query, proofs, volumes.set, place.robot.sole_outline,
+                               {over, walk->config.swept_volumes.options.cell});
   SearchFootsteps({.set = volumes.set,
                    .query = crossing,
                    .effort = [&proofs] { return proofs.work().effort(); },
@@ -198,6 +199,16 @@ std::vector<ObstacleFootprint> LedOver(const Place& place, double via_height) {
   return over;
 }
 
+// Whether a plan leads over an obstacle.
+bool LeadsOver(const ObstacleFootprint& print, const std::array<Foothold, 2>& start,
+               const std::vector<Footstep>& footsteps) {
+  std::array<Foothold, 2> feet = start;
+  return std::ranges::any_of(footsteps, [&](const Footstep& footstep) {
+    Nth(feet, Index(footstep.side)) = footstep.X_WF;
+    return print.IsBetween(feet[0].Planar().position(), feet[1].Planar().position());
+  });
+}
+
 // Where no half-step of the set leads over what is in the way, plans with a set of another form
 // that does: the cheaper plan stays.
 void PlanOver(const ExperimentConfig& config, const Place& place, const PlanningHooks& hooks,
@@ -207,6 +218,7 @@ void PlanOver(const ExperimentConfig& config, const Place& place, const Planning
   const std::string name = Quote(walk->in_the_way);
   const bool solved = walk->plan.status == PlanStatus::kSolved;
   std::string* const said = solved ? &walk->detour : &walk->plan.sentence;
+  const std::array<Foothold, 2> start = StartOf(config, place.robot, *place.scene.ground);
   const FormsOverObstacle found = FormsOver(config, place.robot, *obstacle, kMost);
   walk->proof_effort += found.effort;
   if (found.forms.empty()) {
@@ -226,8 +238,10 @@ void PlanOver(const ExperimentConfig& config, const Place& place, const Planning
     PlanByVolumes(place, hooks, &other, LedOver(place, form.form.via_height));
     if (hooks.stop.stop_requested()) return;
     const double effort = other.plan.effort() + other.proof_effort;
-    if (other.plan.status != PlanStatus::kSolved ||
-        (solved && !(other.plan.cost < walk->plan.cost))) {
+    const bool solves = other.plan.status == PlanStatus::kSolved;
+    const bool leads_over =
+        solves && LeadsOver(FootprintOf(*obstacle), start, other.plan.footsteps);
+    if (!(solved ? leads_over && other.plan.cost < walk->plan.cost : solves)) {
       walk->proof_effort += effort;
       continue;
     }
@@ -235,7 +249,7 @@ void PlanOver(const ExperimentConfig& config, const Place& place, const Planning
     other.half_steps.set_wall += walk->half_steps.set_wall;
     other.half_steps.wall += walk->half_steps.wall;
     other.changed_half_step = Differences(form.form, config.half_step);
-    other.plan.sentence += ", over " + name + " with " + form.Changed(config);
+    other.plan.sentence += (leads_over ? ", over " + name : "") + " with " + form.Changed(config);
     *walk = std::move(other);
     return;
   }
