@@ -112,6 +112,21 @@ bool CrossingFit::Proves(const HalfStepConfig& form) {
   return false;
 }
 
+std::vector<Foothold> CrossingFit::Landings(const HalfStepConfig& form) {
+  constexpr double kSame = 1e-6;  // [m] and [rad]
+  std::vector<Foothold> landings;
+  for (const Crossing& crossing : crossings_) {
+    const Foothold X_SF = crossing.X_WS.Inverse() * crossing.X_WF;
+    const Foothold left = crossing.support == Side::kLeft ? X_SF : X_SF.Mirrored();
+    const bool known = std::ranges::any_of(landings, [&](const Foothold& other) {
+      return std::abs(other.x - left.x) < kSame && std::abs(other.y - left.y) < kSame &&
+             std::abs(other.yaw - left.yaw) < kSame;
+    });
+    if (!known && Keeps(form, crossing)) landings.push_back(left);
+  }
+  return landings;
+}
+
 bool CrossingFit::Keeps(const HalfStepConfig& form, const Crossing& crossing) {
   bool keeps = Rises(form, crossing);
   if (!keeps) return false;

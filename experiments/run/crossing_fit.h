@@ -40,6 +40,9 @@ class CrossingFit {
   /// Whether some crossing of those that a form keeps at these instants is certified for all t, of
   /// the first four.
   bool Proves(const HalfStepConfig& form);
+  /// The landings, seen from a left support, of the crossings that a form keeps at these instants;
+  /// each once.
+  std::vector<Foothold> Landings(const HalfStepConfig& form);
   Work work() const { return scratch_.work; }  ///< of all answers so far
   /// "clearance of left_foot to 'bar': …".
   std::string Describe(const Margin& margin) const { return evaluator_.Describe(margin); }

@@ -12,21 +12,15 @@ namespace halfstep {
 
 /// Answers for planners by volumes, and by proofs where half-steps lead over an obstacle: a volume
 /// holds all that its half-step sweeps and some more, which over an obstacle is often too much.
-/// What its volume does not call free is asked of `proofs` when it passes over an obstacle or as
-/// near as `near` to it, and no sole stands beside its narrower side's ends [m]. Thread-safe as
-/// these are. Source: planner/README.md, "Over an obstacle".
+/// What its volume does not call free is asked of `proofs` when one of its soles stands wholly
+/// before an obstacle and the other one wholly behind. Thread-safe as these are. Source:
+/// planner/README.md, "Over an obstacle".
 class CrossingQuery : public HalfStepQuery {
  public:
-  /// What half-steps may lead over, and how near to it proofs are asked for.
-  struct Over {
-    std::vector<ObstacleFootprint> obstacles;
-    double near = 0.0;  ///< [m]
-  };
-
-  /// All is borrowed but `over`. Both queries are of `set`; `sole_outline` is
-  /// RobotModel::sole_outline.
+  /// All is borrowed but `over`, what half-steps may lead over. Both queries are of `set`;
+  /// `sole_outline` is RobotModel::sole_outline.
   CrossingQuery(const HalfStepQuery& volumes, const CertificateQuery& proofs, const StepSet& set,
-                const Eigen::Matrix2Xd& sole_outline, Over over)
+                const Eigen::Matrix2Xd& sole_outline, std::vector<ObstacleFootprint> over)
       : volumes_(volumes),
         proofs_(proofs),
         set_(set),
@@ -38,15 +32,13 @@ class CrossingQuery : public HalfStepQuery {
   bool Bears(const Foothold& X_WF) const override { return volumes_.Bears(X_WF); }
 
  private:
-  // Whether a half-step on S passes over an obstacle, or near it: its swing foot stands at F, and
-  // the via point is beside S.
-  bool LeadsOver(Side support, const Pose2& X_WS, const Pose2& X_WF) const;
+  bool LeadsOver(int i, Side support, const Foothold& X_WS) const;
 
   const HalfStepQuery& volumes_;
   const CertificateQuery& proofs_;
   const StepSet& set_;
   const Eigen::Matrix2Xd& sole_outline_;
-  Over over_;
+  std::vector<ObstacleFootprint> over_;
 };
 
 }  // namespace halfstep

@@ -9,7 +9,6 @@
 #include "experiments/run/level_crossings.h"
 #include "experiments/run/obstacle_crossings.h"
 #include "experiments/run/obstacle_footprint.h"
-#include "wpg/files/number_text.h"
 #include "wpg/files/text.h"
 #include "wpg/nth.h"
 
@@ -110,14 +109,6 @@ HalfStepForms FormsFor(const ExperimentConfig& config, const Place& place, int w
   return found;
 }
 
-std::string FormOver::Changed(const ExperimentConfig& from) const {
-  std::string text = "half_step: {" + Differences(form, from.half_step) + "}";
-  if (step_set.x_max != from.step_set.x_max) {
-    text += ", step_set: {x_max_m: " + ShortestText(step_set.x_max) + "}";
-  }
-  return text;
-}
-
 namespace {
 
 // Adds the most promising forms with the config's places.
@@ -140,7 +131,7 @@ void LookOver(const ExperimentConfig& config, const RobotModel& robot, const Obs
   std::ranges::stable_sort(fits, [](const auto& a, const auto& b) { return a.first > b.first; });
   for (const auto& [fit, form] : fits) {
     if (std::ssize(found->forms) == wanted) break;
-    if (fitting.Proves(form)) found->forms.push_back({form, config.step_set});
+    if (fitting.Proves(form)) found->forms.push_back({form, fitting.Landings(form)});
   }
   if (found->forms.empty() && nearest.of != nullptr) {
     found->missed = fitting.Describe(nearest.missed);
@@ -157,8 +148,7 @@ FormsOverObstacle FormsOver(const ExperimentConfig& config, const RobotModel& ro
   LookOver(config, robot, obstacle, wanted, &found);
   if (!found.forms.empty()) return found;
   ExperimentConfig longer = config;
-  // In millimetres, as one writes it.
-  longer.step_set.x_max = std::round(1e3 * kLonger * config.step_set.x_max) / 1e3;
+  longer.step_set.x_max *= kLonger;
   LookOver(longer, robot, obstacle, wanted, &found);
   return found;
 }

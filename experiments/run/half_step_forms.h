@@ -26,12 +26,10 @@ struct HalfStepForms {
 /// Source: planner/README.md, "By certificates".
 HalfStepForms FormsFor(const ExperimentConfig& config, const Place& place, int wanted);
 
-/// A form that leads over an obstacle, and the places that half-steps of it are tried at.
+/// A form that leads over an obstacle.
 struct FormOver {
   HalfStepConfig form;
-  StepGrid step_set;  ///< the config's, or with longer steps ahead
-  /// "half_step: {via_height_m: 0.09}, step_set: {x_max_m: 0.2}": what differs from the config's.
-  std::string Changed(const ExperimentConfig& from) const;
+  std::vector<Foothold> landings;  ///< that do so, level, seen from a left support
 };
 
 /// Forms that lead over an obstacle that rests, on a flat floor.
@@ -44,7 +42,7 @@ struct FormsOverObstacle {
 /// The `wanted` ≥ 1 most promising forms of TableOverObstacle: those of which most of the stances
 /// astride the obstacle (DrawObstacleCrossings) keep at a few instants what is demanded, with
 /// nothing else in the scene, and of which one such stance is certified for all t. Where the
-/// config's steps have none, half-steps ahead that are longer by 0.4 are looked at.
+/// config's step_set has none, half-steps ahead that are longer by 0.4 are looked at.
 /// Source: planner/README.md, "Over an obstacle".
 FormsOverObstacle FormsOver(const ExperimentConfig& config, const RobotModel& robot,
                             const Obstacle& obstacle, int wanted);

@@ -142,10 +142,16 @@ void PlanByForms(const Place& place, const PlanningHooks& hooks, PlannedWalk* wa
   }
 }
 
-// With half-steps that are called free by their swept volumes, and, where they lead over one of the
-// obstacles `over`, else by their proofs.
+// What half-steps may lead over, and landings that do so, which have no volume.
+struct Over {
+  std::vector<ObstacleFootprint> obstacles;
+  std::vector<Foothold> landings;
+};
+
+// With half-steps that are called free by their swept volumes, and, where they lead over something,
+// else by their proofs.
 void PlanByVolumes(const Place& place, const PlanningHooks& hooks, PlannedWalk* walk,
-                   const std::vector<ObstacleFootprint>& over = {}) {
+                   const Over& over = {}) {
   walk->half_steps = BakeHalfSteps(place.robot, walk->config, *place.scene.ground, hooks);
   if (!walk->half_steps.cached.volumes) {
     walk->plan.status = PlanStatus::kInterrupted;
@@ -153,7 +159,13 @@ void PlanByVolumes(const Place& place, const PlanningHooks& hooks, PlannedWalk* 
     return;
   }
   if (StartsOnNoStep(place, walk)) return;
-  const SweptVolumes& volumes = *walk->half_steps.cached.volumes;
+  SweptVolumes& volumes = *walk->half_steps.cached.volumes;
+  for (const Foothold& X_SF : over.landings) {
+    volumes.set.placements.push_back(X_SF);
+    volumes.down.emplace_back();
+    volumes.up.emplace_back();
+  }
+  walk->half_steps.size = volumes.set.size();
   const MarginLimits limits = Demandable(walk->config.smoothing.limits, place.robot);
   const auto query_on = [&](const Scene& scene) {
     return SweptVolumeQuery(
@@ -171,12 +183,12 @@ void PlanByVolumes(const Place& place, const PlanningHooks& hooks, PlannedWalk* 
   }
   const FootstepSearch search{
       .set = volumes.set, .query = query, .times = times ? &*times : nullptr, .volumes = &volumes};
-  if (over.empty()) return SearchFootsteps(search, place, hooks, walk);
+  if (over.obstacles.empty()) return SearchFootsteps(search, place, hooks, walk);
   const CertificateQuery proofs(
       volumes.set, MarginEvaluator(place.robot, resting.scene, walk->config.smoothing.limits),
       walk->config.smoothing.certification);
   const CrossingQuery crossing(query, proofs, volumes.set, place.robot.sole_outline,
-                               {over, walk->config.swept_volumes.options.cell});
+                               over.obstacles);
   SearchFootsteps({.set = volumes.set,
                    .query = crossing,
                    .effort = [&proofs] { return proofs.work().effort(); },
@@ -234,8 +246,7 @@ void PlanOver(const ExperimentConfig& config, const Place& place, const Planning
                       .in_time = walk->in_time,
                       .not_covered = walk->not_covered};
     other.config.half_step = form.form;
-    other.config.step_set = form.step_set;
-    PlanByVolumes(place, hooks, &other, LedOver(place, form.form.via_height));
+    PlanByVolumes(place, hooks, &other, {LedOver(place, form.form.via_height), form.landings});
     if (hooks.stop.stop_requested()) return;
     const double effort = other.plan.effort() + other.proof_effort;
     const bool solves = other.plan.status == PlanStatus::kSolved;
@@ -249,13 +260,16 @@ void PlanOver(const ExperimentConfig& config, const Place& place, const Planning
     other.half_steps.set_wall += walk->half_steps.set_wall;
     other.half_steps.wall += walk->half_steps.wall;
     other.changed_half_step = Differences(form.form, config.half_step);
-    other.plan.sentence += (leads_over ? ", over " + name : "") + " with " + form.Changed(config);
+    if (leads_over) other.detour = "";
+    other.plan.sentence +=
+        (leads_over ? ", over " + name : "") + " with half_step: {" + other.changed_half_step + "}";
     *walk = std::move(other);
     return;
   }
   if (said->empty()) return;
-  *said += "; with half-steps that lead over it (" + found.forms.front().Changed(config) +
-           ") no better plan was found";
+  *said += "; with half-steps that lead over it (half_step: {" +
+           Differences(found.forms.front().form, config.half_step) + "}) no " +
+           (solved ? "better " : "") + "plan was found";
 }
 
 }  // namespace
