@@ -50,6 +50,12 @@ std::map<int, CrossingFit::OfKind> CrossingFit::Fit(const HalfStepConfig& form) 
   return fits;
 }
 
+double CrossingFit::Share(const HalfStepConfig& form) {
+  const auto kept = std::ranges::count_if(
+      crossings_, [&](const Crossing& crossing) { return Keeps(form, crossing); });
+  return static_cast<double>(kept) / static_cast<double>(crossings_.size());
+}
+
 CrossingFit::OfKind CrossingFit::Nearest(const HalfStepConfig& form, int kind) {
   constexpr int kLooked = 16;
   OfKind best{.fit = -kWorst};

@@ -34,6 +34,8 @@ class CrossingFit {
   };
   /// By kind. Where none keeps all, `fit` is 0, and Nearest() tells how near one comes.
   std::map<int, OfKind> Fit(const HalfStepConfig& form);
+  /// How many of all crossings keep all [1].
+  double Share(const HalfStepConfig& form);
   /// How near the best of the first crossings of a kind is to keeping all; `of` is null where the
   /// foot does not rise to the other level.
   OfKind Nearest(const HalfStepConfig& form, int kind);

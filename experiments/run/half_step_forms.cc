@@ -5,6 +5,7 @@
 #include <map>
 
 #include "experiments/run/crossing_fit.h"
+#include "experiments/run/ground_steps.h"
 #include "experiments/run/half_step_table.h"
 #include "experiments/run/level_crossings.h"
 #include "experiments/run/obstacle_crossings.h"
@@ -111,18 +112,19 @@ HalfStepForms FormsFor(const ExperimentConfig& config, const Place& place, int w
 
 namespace {
 
-// Adds the most promising forms with the config's places.
+// Adds the most promising form with landings at places.
 void LookOver(const ExperimentConfig& config, const RobotModel& robot, const Obstacle& obstacle,
-              int wanted, FormsOverObstacle* found) {
+              const std::vector<Foothold>& places, FormsOverObstacle* found) {
   Scene alone;
   alone.obstacles = {obstacle};
-  CrossingFit fitting(config, robot, alone, DrawObstacleCrossings(config, robot, obstacle));
+  CrossingFit fitting(config, robot, alone, DrawObstacleCrossings(config, robot, obstacle, places));
   if (fitting.crossings().empty()) return;
   std::vector<std::pair<double, HalfStepConfig>> fits;
   CrossingFit::OfKind nearest;
   for (const HalfStepConfig& form :
        TableOverObstacle(config.half_step, FootprintOf(obstacle).top, SizeOf(robot))) {
-    const double fit = fitting.Fit(form).begin()->second.fit;
+    // Longer ones have to pay.
+    const double fit = fitting.Share(form) * config.half_step.duration / form.duration;
     if (fit > 0.0) fits.emplace_back(fit, form);
     if (!fits.empty()) continue;
     const CrossingFit::OfKind near = fitting.Nearest(form, 0);
@@ -130,8 +132,9 @@ void LookOver(const ExperimentConfig& config, const RobotModel& robot, const Obs
   }
   std::ranges::stable_sort(fits, [](const auto& a, const auto& b) { return a.first > b.first; });
   for (const auto& [fit, form] : fits) {
-    if (std::ssize(found->forms) == wanted) break;
-    if (fitting.Proves(form)) found->forms.push_back({form, fitting.Landings(form)});
+    if (!fitting.Proves(form)) continue;
+    found->forms.push_back({form, fitting.Landings(form)});
+    break;
   }
   if (found->forms.empty() && nearest.of != nullptr) {
     found->missed = fitting.Describe(nearest.missed);
@@ -142,14 +145,12 @@ void LookOver(const ExperimentConfig& config, const RobotModel& robot, const Obs
 }  // namespace
 
 FormsOverObstacle FormsOver(const ExperimentConfig& config, const RobotModel& robot,
-                            const Obstacle& obstacle, int wanted) {
-  constexpr double kLonger = 1.4;
+                            const Obstacle& obstacle) {
   FormsOverObstacle found;
-  LookOver(config, robot, obstacle, wanted, &found);
-  if (!found.forms.empty()) return found;
-  ExperimentConfig longer = config;
-  longer.step_set.x_max *= kLonger;
-  LookOver(longer, robot, obstacle, wanted, &found);
+  const StepSet all = MakeStepSet(config.step_set, {}, [](const HalfStep&) { return true; });
+  LookOver(config, robot, obstacle, all.placements, &found);
+  for (FormOver& form : found.forms) form.landings.clear();  // the set has them
+  LookOver(config, robot, obstacle, PlacesOf(config.step_set), &found);
   return found;
 }
 

@@ -29,7 +29,8 @@ HalfStepForms FormsFor(const ExperimentConfig& config, const Place& place, int w
 /// A form that leads over an obstacle.
 struct FormOver {
   HalfStepConfig form;
-  std::vector<Foothold> landings;  ///< that do so, level, seen from a left support
+  /// Landings that do so, level, seen from a left support, where the config's step_set has none.
+  std::vector<Foothold> landings;
 };
 
 /// Forms that lead over an obstacle that rests, on a flat floor.
@@ -39,12 +40,12 @@ struct FormsOverObstacle {
   double effort = 0.0;          ///< of looking for them (Work::effort)
 };
 
-/// The `wanted` ≥ 1 most promising forms of TableOverObstacle: those of which most of the stances
-/// astride the obstacle (DrawObstacleCrossings) keep at a few instants what is demanded, with
-/// nothing else in the scene, and of which one such stance is certified for all t. Where the
-/// config's step_set has none, half-steps ahead that are longer by 0.4 are looked at.
+/// Of TableOverObstacle the most promising form with landings at the config's step_set, then that
+/// with landings at its PlacesOf: that of which most of the stances astride the obstacle
+/// (DrawObstacleCrossings) keep at a few instants what is demanded, with nothing else in the scene,
+/// by how much longer its half-steps are, and of which one such stance is certified for all t.
 /// Source: planner/README.md, "Over an obstacle".
 FormsOverObstacle FormsOver(const ExperimentConfig& config, const RobotModel& robot,
-                            const Obstacle& obstacle, int wanted);
+                            const Obstacle& obstacle);
 
 }  // namespace halfstep

@@ -3,8 +3,8 @@
 #include <numbers>
 #include <optional>
 #include <random>
+#include <utility>
 
-#include "experiments/run/ground_steps.h"
 #include "experiments/run/obstacle_footprint.h"
 #include "planner/search/plan_shortcut.h"
 #include "wpg/elementary.h"
@@ -15,12 +15,13 @@ namespace {
 
 class Astride {
  public:
-  Astride(const ExperimentConfig& config, const RobotModel& robot, const Obstacle& obstacle)
+  Astride(const ExperimentConfig& config, const RobotModel& robot, const Obstacle& obstacle,
+          std::vector<Foothold> places)
       : robot_(robot),
         print_(FootprintOf(obstacle)),
         clearance_(config.smoothing.limits.demanded_of(MarginFamily::kClearance)),
         turn_(Atan2(print_.across.y(), print_.across.x())),
-        landings_(PlacesOf(config.step_set)) {}
+        landings_(std::move(places)) {}
 
   // A stance over it, if the drawn one leads over it.
   std::optional<Crossing> Draw(std::mt19937_64& random) const {
@@ -79,9 +80,10 @@ class Astride {
 }  // namespace
 
 std::vector<Crossing> DrawObstacleCrossings(const ExperimentConfig& config, const RobotModel& robot,
-                                            const Obstacle& obstacle) {
+                                            const Obstacle& obstacle,
+                                            std::vector<Foothold> places) {
   constexpr int kWanted = 96, kTries = 20000;
-  const Astride astride(config, robot, obstacle);
+  const Astride astride(config, robot, obstacle, std::move(places));
   std::vector<Crossing> crossings;
   std::mt19937_64 random(static_cast<std::uint64_t>(config.seed));
   for (int k = 0; k < kTries && std::ssize(crossings) < kWanted; ++k) {

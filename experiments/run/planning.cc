@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "experiments/run/certificate_query.h"
+#include "experiments/run/certified_half_steps.h"
 #include "experiments/run/crossing_query.h"
 #include "experiments/run/footstep_search.h"
 #include "experiments/run/ground_steps.h"
@@ -148,6 +149,23 @@ struct Over {
   std::vector<Foothold> landings;
 };
 
+// Adds those that are certified on an empty floor, without volumes.
+void AddLandings(const std::vector<Foothold>& landings, const RobotModel& robot,
+                 const ExperimentConfig& config, SweptVolumes* volumes) {
+  const HalfStepCertifier certifier(robot, Scene{}, config);
+  const auto keeps = [&](const HalfStep& half_step) {
+    return certifier.Certifies(half_step, {}) &&
+           (robot.legs_are_mirrored || certifier.Certifies(half_step.Mirrored(), {}));
+  };
+  for (const Foothold& X_SF : landings) {
+    StepSet one{.prototype = volumes->set.prototype, .placements = {X_SF}};
+    if (!keeps(one.Down(0, Side::kLeft)) || !keeps(one.Up(0, Side::kLeft))) continue;
+    volumes->set.placements.push_back(X_SF);
+    volumes->down.emplace_back();
+    volumes->up.emplace_back();
+  }
+}
+
 // With half-steps that are called free by their swept volumes, and, where they lead over something,
 // else by their proofs.
 void PlanByVolumes(const Place& place, const PlanningHooks& hooks, PlannedWalk* walk,
@@ -160,11 +178,7 @@ void PlanByVolumes(const Place& place, const PlanningHooks& hooks, PlannedWalk* 
   }
   if (StartsOnNoStep(place, walk)) return;
   SweptVolumes& volumes = *walk->half_steps.cached.volumes;
-  for (const Foothold& X_SF : over.landings) {
-    volumes.set.placements.push_back(X_SF);
-    volumes.down.emplace_back();
-    volumes.up.emplace_back();
-  }
+  AddLandings(over.landings, place.robot, walk->config, &volumes);
   walk->half_steps.size = volumes.set.size();
   const MarginLimits limits = Demandable(walk->config.smoothing.limits, place.robot);
   const auto query_on = [&](const Scene& scene) {
@@ -184,9 +198,10 @@ void PlanByVolumes(const Place& place, const PlanningHooks& hooks, PlannedWalk* 
   const FootstepSearch search{
       .set = volumes.set, .query = query, .times = times ? &*times : nullptr, .volumes = &volumes};
   if (over.obstacles.empty()) return SearchFootsteps(search, place, hooks, walk);
+  // All else is certified of the set.
   const CertificateQuery proofs(
       volumes.set, MarginEvaluator(place.robot, resting.scene, walk->config.smoothing.limits),
-      walk->config.smoothing.certification);
+      walk->config.smoothing.certification, {MarginFamily::kClearance, MarginFamily::kNoStep});
   const CrossingQuery crossing(query, proofs, volumes.set, place.robot.sole_outline,
                                over.obstacles);
   SearchFootsteps({.set = volumes.set,
@@ -225,13 +240,12 @@ bool LeadsOver(const ObstacleFootprint& print, const std::array<Foothold, 2>& st
 // that does: the cheaper plan stays.
 void PlanOver(const ExperimentConfig& config, const Place& place, const PlanningHooks& hooks,
               PlannedWalk* walk) {
-  constexpr int kMost = 2;
   const auto obstacle = std::ranges::find(place.scene.obstacles, walk->in_the_way, &Obstacle::name);
   const std::string name = Quote(walk->in_the_way);
   const bool solved = walk->plan.status == PlanStatus::kSolved;
   std::string* const said = solved ? &walk->detour : &walk->plan.sentence;
   const std::array<Foothold, 2> start = StartOf(config, place.robot, *place.scene.ground);
-  const FormsOverObstacle found = FormsOver(config, place.robot, *obstacle, kMost);
+  const FormsOverObstacle found = FormsOver(config, place.robot, *obstacle);
   walk->proof_effort += found.effort;
   if (found.forms.empty()) {
     if (!said->empty() && !found.missed.empty()) {
