@@ -56,13 +56,11 @@ double CrossingFit::Share(const HalfStepConfig& form) {
   return static_cast<double>(kept) / static_cast<double>(crossings_.size());
 }
 
-CrossingFit::OfKind CrossingFit::Nearest(const HalfStepConfig& form, int kind) {
-  constexpr int kLooked = 16;
+CrossingFit::OfKind CrossingFit::Nearest(const HalfStepConfig& form, int kind, int looked) {
   OfKind best{.fit = -kWorst};
-  int looked = 0;
   for (const Crossing& crossing : crossings_) {
-    if (crossing.kind != kind || looked == kLooked) continue;
-    ++looked;
+    if (crossing.kind != kind || looked == 0) continue;
+    --looked;
     if (!Rises(form, crossing)) continue;
     const auto [slack, margin] = SlackOf(form, crossing);
     if (best.of == nullptr || slack > best.fit) best = {slack, margin, &crossing};

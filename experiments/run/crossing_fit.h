@@ -36,9 +36,9 @@ class CrossingFit {
   std::map<int, OfKind> Fit(const HalfStepConfig& form);
   /// How many of all crossings keep all [1].
   double Share(const HalfStepConfig& form);
-  /// How near the best of the first crossings of a kind is to keeping all; `of` is null where the
-  /// foot does not rise to the other level.
-  OfKind Nearest(const HalfStepConfig& form, int kind);
+  /// How near the best of the first `looked` crossings of a kind is to keeping all; `of` is null
+  /// where the foot does not rise to the other level.
+  OfKind Nearest(const HalfStepConfig& form, int kind, int looked = 16);
   /// Whether some crossing of those that a form keeps at these instants is certified for all t, of
   /// the first four.
   bool Proves(const HalfStepConfig& form);

@@ -5,7 +5,6 @@
 #include <map>
 
 #include "experiments/run/crossing_fit.h"
-#include "experiments/run/ground_steps.h"
 #include "experiments/run/half_step_table.h"
 #include "experiments/run/level_crossings.h"
 #include "experiments/run/obstacle_crossings.h"
@@ -110,15 +109,14 @@ HalfStepForms FormsFor(const ExperimentConfig& config, const Place& place, int w
   return found;
 }
 
-namespace {
-
-// Adds the most promising form with landings at places.
-void LookOver(const ExperimentConfig& config, const RobotModel& robot, const Obstacle& obstacle,
-              const std::vector<Foothold>& places, FormsOverObstacle* found) {
+FormOver FindFormOver(const ExperimentConfig& config, const RobotModel& robot,
+                      const Obstacle& obstacle, const std::vector<Foothold>& places) {
+  constexpr int kLooked = 4;  // crossings, for what is missed
   Scene alone;
   alone.obstacles = {obstacle};
   CrossingFit fitting(config, robot, alone, DrawObstacleCrossings(config, robot, obstacle, places));
-  if (fitting.crossings().empty()) return;
+  FormOver found;
+  if (fitting.crossings().empty()) return found;
   std::vector<std::pair<double, HalfStepConfig>> fits;
   CrossingFit::OfKind nearest;
   for (const HalfStepConfig& form :
@@ -127,30 +125,18 @@ void LookOver(const ExperimentConfig& config, const RobotModel& robot, const Obs
     const double fit = fitting.Share(form) * config.half_step.duration / form.duration;
     if (fit > 0.0) fits.emplace_back(fit, form);
     if (!fits.empty()) continue;
-    const CrossingFit::OfKind near = fitting.Nearest(form, 0);
+    const CrossingFit::OfKind near = fitting.Nearest(form, 0, kLooked);
     if (nearest.of == nullptr || (near.of != nullptr && near.fit > nearest.fit)) nearest = near;
   }
   std::ranges::stable_sort(fits, [](const auto& a, const auto& b) { return a.first > b.first; });
   for (const auto& [fit, form] : fits) {
     if (!fitting.Proves(form)) continue;
-    found->forms.push_back({form, fitting.Landings(form)});
+    found.form = form;
+    found.landings = fitting.Landings(form);
     break;
   }
-  if (found->forms.empty() && nearest.of != nullptr) {
-    found->missed = fitting.Describe(nearest.missed);
-  }
-  found->effort += fitting.work().effort();
-}
-
-}  // namespace
-
-FormsOverObstacle FormsOver(const ExperimentConfig& config, const RobotModel& robot,
-                            const Obstacle& obstacle) {
-  FormsOverObstacle found;
-  const StepSet all = MakeStepSet(config.step_set, {}, [](const HalfStep&) { return true; });
-  LookOver(config, robot, obstacle, all.placements, &found);
-  for (FormOver& form : found.forms) form.landings.clear();  // the set has them
-  LookOver(config, robot, obstacle, PlacesOf(config.step_set), &found);
+  if (!found.form && nearest.of != nullptr) found.missed = fitting.Describe(nearest.missed);
+  found.effort = fitting.work().effort();
   return found;
 }
 

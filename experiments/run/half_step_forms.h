@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,26 +27,20 @@ struct HalfStepForms {
 /// Source: planner/README.md, "By certificates".
 HalfStepForms FormsFor(const ExperimentConfig& config, const Place& place, int wanted);
 
-/// A form that leads over an obstacle.
+/// A form that leads over an obstacle that rests, on a flat floor.
 struct FormOver {
-  HalfStepConfig form;
-  /// Landings that do so, level, seen from a left support, where the config's step_set has none.
-  std::vector<Foothold> landings;
+  std::optional<HalfStepConfig> form = {};  ///< none was found
+  std::vector<Foothold> landings = {};  ///< that do so, level, seen from a left support, each once
+  std::string missed = {};              ///< what the nearest form misses, where none was found
+  double effort = 0.0;                  ///< of looking for it (Work::effort)
 };
 
-/// Forms that lead over an obstacle that rests, on a flat floor.
-struct FormsOverObstacle {
-  std::vector<FormOver> forms;  ///< the most promising first; empty: none was found
-  std::string missed = {};      ///< what the nearest of them misses, where none was found
-  double effort = 0.0;          ///< of looking for them (Work::effort)
-};
-
-/// Of TableOverObstacle the most promising form with landings at the config's step_set, then that
-/// with landings at its PlacesOf: that of which most of the stances astride the obstacle
-/// (DrawObstacleCrossings) keep at a few instants what is demanded, with nothing else in the scene,
-/// by how much longer its half-steps are, and of which one such stance is certified for all t.
-/// Source: planner/README.md, "Over an obstacle".
-FormsOverObstacle FormsOver(const ExperimentConfig& config, const RobotModel& robot,
-                            const Obstacle& obstacle);
+/// Of TableOverObstacle the most promising form with landings at `places`, seen from a left
+/// support: that of which most of the stances astride the obstacle (DrawObstacleCrossings) keep at
+/// a few instants what is demanded, with nothing else in the scene, by how much longer its
+/// half-steps are, and of which one such stance is certified for all t. Source: planner/README.md,
+/// "Over an obstacle".
+FormOver FindFormOver(const ExperimentConfig& config, const RobotModel& robot,
+                      const Obstacle& obstacle, const std::vector<Foothold>& places);
 
 }  // namespace halfstep

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "experiments/run/ground_steps.h"
 #include "experiments/run/half_step_forms.h"
 #include "experiments/run/half_step_table.h"
 #include "experiments/run/plan_by_volumes.h"
@@ -47,23 +48,26 @@ void PlanOver(const ExperimentConfig& config, const Place& place, const Planning
   const bool solved = walk->plan.status == PlanStatus::kSolved;
   std::string* const said = solved ? &walk->detour : &walk->plan.sentence;
   const std::array<Foothold, 2> start = StartOf(config, place.robot, *place.scene.ground);
-  const FormsOverObstacle found = FormsOver(config, place.robot, *obstacle);
-  walk->proof_effort += found.effort;
-  if (found.forms.empty()) {
-    if (!said->empty() && !found.missed.empty()) {
-      *said += "; no other half-step that was tried leads over it: " + found.missed;
+  const StepSet all = MakeStepSet(config.step_set, {}, [](const HalfStep&) { return true; });
+  std::string first, missed;
+  for (const bool denser : {false, true}) {
+    FormOver over = FindFormOver(config, place.robot, *obstacle,
+                                 denser ? PlacesOf(config.step_set) : all.placements);
+    walk->proof_effort += over.effort;
+    if (!over.form) {
+      missed = over.missed;
+      continue;
     }
-    return;
-  }
-  for (const FormOver& form : found.forms) {
+    if (first.empty()) first = Differences(*over.form, config.half_step);
+    if (!denser) over.landings.clear();  // the set has them
     PlannedWalk other{.config = config,
                       .plan = {},
                       .half_steps = {},
                       .in_time = walk->in_time,
                       .not_covered = walk->not_covered};
-    other.config.half_step = form.form;
+    other.config.half_step = *over.form;
     try {
-      PlanByVolumes(place, hooks, &other, {LowOnes(place, form.form.via_height), form.landings});
+      PlanByVolumes(place, hooks, &other, {LowOnes(place, over.form->via_height), over.landings});
     } catch (const InputError&) {  // the config's step_set has no half-step of this form
       continue;
     }
@@ -79,7 +83,7 @@ void PlanOver(const ExperimentConfig& config, const Place& place, const Planning
     other.proof_effort += walk->plan.effort() + walk->proof_effort;
     other.half_steps.set_wall += walk->half_steps.set_wall;
     other.half_steps.wall += walk->half_steps.wall;
-    other.changed_half_step = Differences(form.form, config.half_step);
+    other.changed_half_step = Differences(*over.form, config.half_step);
     if (leads_over) other.detour = "";
     other.plan.sentence +=
         (leads_over ? ", over " + name : "") + " with half_step: {" + other.changed_half_step + "}";
@@ -87,9 +91,12 @@ void PlanOver(const ExperimentConfig& config, const Place& place, const Planning
     return;
   }
   if (said->empty()) return;
-  *said += "; with half-steps that lead over it (half_step: {" +
-           Differences(found.forms.front().form, config.half_step) + "}) no " +
-           (solved ? "better " : "") + "plan was found";
+  if (!first.empty()) {
+    *said += "; with half-steps that lead over it (half_step: {" + first + "}) no " +
+             (solved ? "better " : "") + "plan was found";
+  } else if (!missed.empty()) {
+    *said += "; no other half-step that was tried leads over it: " + missed;
+  }
 }
 
 }  // namespace halfstep

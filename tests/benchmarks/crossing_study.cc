@@ -12,6 +12,7 @@
 #include "experiments/config/experiment.h"
 #include "experiments/run/certified_half_steps.h"
 #include "experiments/run/crossing_query.h"
+#include "experiments/run/ground_steps.h"
 #include "experiments/run/half_step_forms.h"
 #include "experiments/run/planning.h"
 #include "planner/swept/swept_volume_query.h"
@@ -33,12 +34,13 @@ int main(int argc, char** argv) {
     bar.X_WO.rotate(Eigen::AngleAxisd(at.yaw, Eigen::Vector3d::UnitZ()));
     return bar;
   };
-  const FormsOverObstacle found = FormsOver(config, robot, bar_at(0.2 * leg, {}));
-  if (found.forms.empty()) {
+  const FormOver found =
+      FindFormOver(config, robot, bar_at(0.2 * leg, {}), PlacesOf(config.step_set));
+  if (!found.form) {
     std::printf("%s: no form leads over it: %s\n", name.c_str(), found.missed.c_str());
     return 1;
   }
-  config.half_step = found.forms.front().form;
+  config.half_step = *found.form;
   const BakedHalfSteps baked = BakeHalfSteps(robot, config, {});
   const SweptVolumes& volumes = *baked.cached.volumes;
   long asked = 0, by_volume = 0, by_proof = 0, wrong = 0, controls = 0, refuted = 0;
