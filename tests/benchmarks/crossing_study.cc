@@ -26,7 +26,7 @@ int main(int argc, char** argv) {
   const std::string name = argc > 3 ? argv[3] : "hrp2";
   ExperimentConfig config =
       LoadConfig(HALFSTEP_SOURCE_DIR "/experiments/configs/island.yaml", {{"robot", name}});
-  const RobotModel robot = LoadRobot(name);
+  const RobotModel robot = LoadPlace(config).robot;
   const double leg = LegLengthOf(robot);
   const auto bar_at = [&](double height, const Foothold& at) {
     Obstacle bar{"bar", Box{{0.03 * leg, 4.0 * leg, height}}, Eigen::Isometry3d::Identity()};
