@@ -10,7 +10,7 @@ namespace halfstep {
 
 /// What half-steps may lead over by their proofs.
 struct LedOver {
-  std::vector<ObstacleFootprint> obstacles;
+  std::vector<ObstacleFootprint> obstacles;  ///< that count
   /// More places of the set, level, seen from a left support: they have no volumes. What is not
   /// certified on an empty floor is left out.
   std::vector<Foothold> landings;
