@@ -74,7 +74,7 @@ start:
   left:  {{x_m: 0, y_m: 0.105}}
   right: {{x_m: 0, y_m: -0.105}}
 goal: {{x_m: 1.6, y_m: 0, radius_m: 0.15}}
-planner: {{name: astar, max_nodes: 20000, workspace_m: [-0.5, -0.7, 2.0, 1.5]}}
+planner: {{workspace_m: [-0.5, -0.7, 2.0, 1.5]}}
 smoothing: {{methods: [dichotomy]}}
 """
 

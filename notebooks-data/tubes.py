@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tubes of measured size: tubes.py HALFSTEP FOLDER CONFIG… > tubes.md
+"""Tubes of measured size: tubes.py HALFSTEP FOLDER CONFIG… > tubes.txt
 
 Smooths each config by halfstep/sqp, replays the walk with eight seeds and `--controller dcm` on the
 servos of SERVOS, and smooths again with the tube that replay suggests, as it is and in the ways of

@@ -75,6 +75,7 @@ struct Pair {
   const ConvexBody* b = nullptr;
   int link_b = -1;  // −1: at X_WB
   Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
+  double error = 0.0;  // how far the second one may be from there [m]
   std::vector<JointedRobot::Lever> levers_of_a, levers_of_b;  // the second: none for obstacles
 };
 
@@ -116,26 +117,6 @@ class PairLook {
   const Pair& pair_;
   Motion& motion_;
 };
-
-ConvexBody BodyOfObstacle(const Obstacle& obstacle) {
-  const auto refuse = [&](const std::string& what) {
-    throw InputError({"obstacle " + obstacle.name + ": " + what});
-  };
-  if (!obstacle.rests()) refuse("moves (valid here: obstacles that rest)");
-  if (const auto* mesh = std::get_if<TriangleMesh>(&obstacle.shape)) {
-    if (mesh->cubes || mesh->hollow) refuse("is a map or hollow (valid here: solids)");
-    return MakeHull(mesh->vertices);
-  }
-  ConvexBody body;
-  std::visit(
-      [&](const auto& shape) {
-        if constexpr (!std::is_same_v<std::decay_t<decltype(shape)>, TriangleMesh>) {
-          body = BodyOf(shape);
-        }
-      },
-      obstacle.shape);
-  return body;
-}
 
 bool Ignored(const TrajectoryDemands& demands, const std::string& a, const std::string& b) {
   return std::ranges::any_of(demands.ignored, [&](const auto& pair) {
@@ -251,8 +232,35 @@ void CheckIgnored(const JointedRobot& robot, const TrajectoryDemands& demands) {
 
 }  // namespace
 
+ConvexBody BodyOfObstacle(const Obstacle& obstacle) {
+  const auto refuse = [&](const std::string& what) {
+    throw InputError({"obstacle " + obstacle.name + ": " + what});
+  };
+  if (const auto* mesh = std::get_if<TriangleMesh>(&obstacle.shape)) {
+    if (mesh->cubes || mesh->hollow) refuse("is a map or hollow (valid here: solids)");
+    return MakeHull(mesh->vertices);
+  }
+  ConvexBody body;
+  std::visit(
+      [&](const auto& shape) {
+        if constexpr (!std::is_same_v<std::decay_t<decltype(shape)>, TriangleMesh>) {
+          body = BodyOf(shape);
+        }
+      },
+      obstacle.shape);
+  return body;
+}
+
 bool TrajectoryCheck::proved() const {
   return !stopped && std::ranges::all_of(findings, &TrajectoryFinding::proved);
+}
+
+void TrajectoryCheck::Sort() {
+  std::ranges::stable_sort(findings, [](const auto& x, const auto& y) {
+    if (x.kind != y.kind) return x.kind < y.kind;
+    if (x.proved != y.proved) return !x.proved;
+    return x.least - x.demanded < y.least - y.demanded;
+  });
 }
 
 TrajectoryCheck CheckTrajectory(const Trajectory& trajectory, const JointedRobot& robot,
@@ -266,7 +274,12 @@ TrajectoryCheck CheckTrajectory(const Trajectory& trajectory, const JointedRobot
   std::vector<Pair> pairs = SelfPairs(robot, demands);
   std::vector<ConvexBody> obstacles;
   obstacles.reserve(scene.obstacles.size());
-  for (const Obstacle& obstacle : scene.obstacles) obstacles.push_back(BodyOfObstacle(obstacle));
+  for (const Obstacle& obstacle : scene.obstacles) {
+    if (!obstacle.rests()) {
+      throw InputError({"obstacle " + obstacle.name + ": moves (valid here: obstacles that rest)"});
+    }
+    obstacles.push_back(BodyOfObstacle(obstacle));
+  }
   for (size_t k = 0; k < obstacles.size(); ++k) {
     for (const JointedRobot::Body& body : robot.bodies()) {
       pairs.push_back({.kind = Kind::kClearance,
@@ -274,6 +287,7 @@ TrajectoryCheck CheckTrajectory(const Trajectory& trajectory, const JointedRobot
                        .a = &body,
                        .b = &obstacles[k],
                        .X_WB = scene.obstacles[k].X_WO,
+                       .error = scene.obstacles[k].motion.error,
                        .levers_of_a = robot.Levers(body, 0),
                        .levers_of_b = {}});
     }
@@ -286,18 +300,15 @@ TrajectoryCheck CheckTrajectory(const Trajectory& trajectory, const JointedRobot
     }
     if (pair.levers_of_a.empty()) continue;  // rigid, or fixed in the world
     const PairLook look(pair, &motion);
-    const double demanded =
-        pair.kind == Kind::kClearance ? demands.clearance : demands.self_clearance;
+    const double demanded = pair.kind == Kind::kSelfClearance ? demands.self_clearance
+                            : pair.error > 0.0 ? Above(demands.clearance + pair.error)
+                                               : demands.clearance;
     const Proof proof = Prove(motion.curves().begin(), motion.curves().end(), demanded, look);
     AddFinding(
         pair.kind, pair.subject, demanded, proof, motion.curves().times(),
         [&look](double t) { return look.About(t); }, &check);
   }
-  std::ranges::stable_sort(check.findings, [](const auto& x, const auto& y) {
-    if (x.kind != y.kind) return x.kind < y.kind;
-    if (x.proved != y.proved) return !x.proved;
-    return x.least - x.demanded < y.least - y.demanded;
-  });
+  check.Sort();
   return check;
 }
 

@@ -23,8 +23,27 @@ struct TrajectoryDemands {
 
 /// A statement about one subject: for all t ∈ [0, end], or not.
 struct TrajectoryFinding {
-  /// What statements are about.
-  enum class Kind { kLimits, kSpeed, kAcceleration, kSelfClearance, kClearance };
+  /// What statements are about. Those after kClearance are of walks alone.
+  enum class Kind {
+    kLimits,
+    kSpeed,
+    kAcceleration,
+    kSelfClearance,
+    kClearance,
+    kContact,
+    kDoubleSupport,
+    kFloor,
+    kFootSpeed,
+    kFootYawRate,
+    kLandingSpeed,
+    kZmp,
+    kReach,
+    kGround,
+    kNoStep,
+    kZmpRobot,
+    kFriction,
+    kTorque
+  };
   Kind kind = Kind::kLimits;  ///< what it is about
   std::string subject;        ///< "elbow", "forearm - shelf"
   bool proved = false;        ///< at least `demanded` is kept, for all t
@@ -45,7 +64,11 @@ struct TrajectoryCheck {
   bool stopped = false;                     ///< before all was looked at: nothing is proved
 
   bool proved() const;  ///< all of it
+  void Sort();          ///< findings as above
 };
+
+/// The solid of an obstacle, of a mesh its hull. Throws InputError for maps and hollow meshes.
+ConvexBody BodyOfObstacle(const Obstacle& obstacle);
 
 /// Looks at every statement, in interval arithmetic. On [m − h, m + h] a pair of bodies keeps at
 /// least its gap along a direction at m less Σ |q_j(t) − q_j(m)|·reach_j (JointedRobot::Levers);

@@ -106,4 +106,8 @@ double GapAlong(const Eigen::Vector3d& n, const ConvexBody& a, const Frame& X_WA
   return gap.lo > 0.0 ? Below(gap.lo / length.hi) : Below(gap.lo / length.lo);
 }
 
+double LeastAlong(const Eigen::Vector3d& n, const ConvexBody& body, const Frame& X) {
+  return -SupportAlong(-VectorOf(n), body, X).hi;
+}
+
 }  // namespace halfstep::checker

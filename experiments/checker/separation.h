@@ -23,4 +23,7 @@ SeparationHint HintOf(const ConvexBody& a, const Eigen::Isometry3d& X_WA, const 
 double GapAlong(const Eigen::Vector3d& n, const ConvexBody& a, const Frame& X_WA,
                 const ConvexBody& b, const Frame& X_WB);
 
+/// A lower bound of n·x over a body, for all frames of the intervals.
+double LeastAlong(const Eigen::Vector3d& n, const ConvexBody& body, const Frame& X);
+
 }  // namespace halfstep::checker

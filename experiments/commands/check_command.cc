@@ -4,8 +4,10 @@
 #include <memory>
 #include <optional>
 
+#include "experiments/checker/check_report.h"
 #include "experiments/checker/check_trajectory.h"
-#include "experiments/checker/trajectory_report.h"
+#include "experiments/checker/check_walk.h"
+#include "experiments/checker/walk_run.h"
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/command_mistake.h"
 #include "experiments/commands/commands.h"
@@ -82,9 +84,57 @@ std::vector<std::string> NotLookedAt(const checker::Trajectory& trajectory, cons
   return told;
 }
 
+// The walks of a run's methods.
+ExitStatus CheckWalks(const CheckCommand& command) {
+  const std::string& run = command.trajectory;
+  bool proved = true;
+  std::vector<std::pair<std::string, checker::TrajectoryCheck>> checks;
+  for (const std::string& method : checker::CertifiedMethods(run, command.method)) {
+    const checker::WalkRun walk = checker::ReadWalkRun(run, method, command.robot, command.scene);
+    InterruptGuard interrupt;
+    std::optional<ProgressBar> bar(std::in_place, "check " + method, command.quiet);
+    checker::TrajectoryCheck check;
+    try {
+      check = checker::CheckWalk(walk.tables, walk.robot, walk.scene, walk.certificate, walk.crouch,
+                                 [&](double done) {
+                                   bar->Update(done);
+                                   return !interrupt.token().stop_requested();
+                                 });
+    } catch (const InputError& error) {
+      std::vector<std::string> told = error.complaints();
+      for (std::string& line : told) line.insert(0, run + ": ");
+      throw InputError(told);
+    }
+    bar.reset();
+    check.not_covered.insert(check.not_covered.end(), walk.not_covered.begin(),
+                             walk.not_covered.end());
+    if (!command.json && !command.quiet) {
+      const std::string title =
+          Formatted("%s, %s: %zu half-steps of %s in %s", run.c_str(), method.c_str(),
+                    walk.tables.half_steps.size(), walk.robot.name.c_str(),
+                    walk.certificate.scene == "none" ? "an empty room" : walk.scene.name.c_str());
+      std::cout << checker::CheckScreen(title, check)
+                << Formatted("\n%td intervals of time\n\n", check.intervals);
+    }
+    if (check.stopped) return kInterrupted;
+    proved = proved && check.proved();
+    checks.emplace_back(method, std::move(check));
+  }
+  if (command.json) std::cout << checker::CheckJson(run, checks);
+  return proved ? kSuccess : kFailed;
+}
+
 }  // namespace
 
 ExitStatus CheckMotion(const CheckCommand& command) {
+  if (fs::is_directory(command.trajectory)) return CheckWalks(command);
+  if (!fs::exists(command.trajectory)) {
+    throw InputError({command.trajectory + ": does not exist (valid: a trajectory, or a run)"});
+  }
+  if (command.method) throw InputError({"--method: is of runs (valid: the folder of a run)"});
+  if (command.robot.empty()) {
+    throw InputError({"--robot: is missing (valid: URDF, robot file or shipped robot's name)"});
+  }
   GivenRobot given = Given(command.robot);
   const UrdfTree& urdf = given.urdf;
   if (!urdf.warnings.empty()) TellUnder("warnings of the URDF", urdf.warnings);
@@ -115,7 +165,7 @@ ExitStatus CheckMotion(const CheckCommand& command) {
   if (command.json) {
     std::cout << checker::CheckJson(trajectory, check);
   } else if (!command.quiet) {
-    std::cout << checker::CheckScreen(trajectory, check);
+    std::cout << checker::CheckScreen(checker::TitleOf(trajectory), check);
   }
   return check.stopped ? kInterrupted : check.proved() ? kSuccess : kFailed;
 }
@@ -128,10 +178,14 @@ CommandAction DeclareCheck(CLI::App* app, const Toolbox&) {
   };
   const auto texts = std::make_shared<Texts>();
   app->add_option("TRAJECTORY", command->trajectory,
-                  "joint trajectory: .csv, or trajectory_msgs/JointTrajectory in .yaml")
+                  "joint trajectory: .csv, or trajectory_msgs/JointTrajectory in .yaml; or the "
+                  "folder of a run, of whose walks is proved what their certificates demand")
       ->required();
-  app->add_option("--robot", command->robot, "URDF, robot file or shipped robot's name")
-      ->required();
+  app->add_option("--method", command->method,
+                  "of a run: its method (default: all that are certified)");
+  app->add_option("--robot", command->robot,
+                  "of a trajectory: URDF, robot file or shipped robot's name; of a run: where its "
+                  "robot file is now");
   app->add_option("--scene", command->scene, "scene file or a shipped scene's name");
   app->add_option("--interpolation", texts->interpolation,
                   "between knots: linear, cubic, quintic (default: by what the file has)")
@@ -151,7 +205,13 @@ CommandAction DeclareCheck(CLI::App* app, const Toolbox&) {
       ->allow_extra_args(false);
   app->add_flag("--quiet", command->quiet, "print nothing but errors");
   app->add_flag("--json", command->json, "print JSON");
-  return [command, texts] {
+  return [app, command, texts] {
+    for (const char* const option : {"--interpolation", "--self-clearance", "--clearance",
+                                     "--acceleration", "--ignore", "--package"}) {
+      if (app->count(option) == 0 || !fs::is_directory(command->trajectory)) continue;
+      throw InputError({std::string(option) +
+                        ": is of trajectories (valid for a run: --method, --robot, --scene)"});
+    }
     for (const YamlOverride& package : ParseOverrides(texts->packages, "--package")) {
       command->packages[package.key] = fs::absolute(package.value).lexically_normal().string();
     }

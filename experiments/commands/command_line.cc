@@ -2,6 +2,8 @@
 
 #include <iostream>
 
+#include "experiments/about/build_info.h"
+#include "experiments/commands/command_mistake.h"
 #include "experiments/commands/commands.h"
 #include "experiments/config/experiment_config.h"
 #include "wpg/files/input_error.h"
@@ -18,7 +20,7 @@ constexpr CommandEntry kEntries[] = {
      DeclareInit},
     {"run",
      "Concatenate, smooth with each method, write the run folder.\n\n"
-     "  example: halfstep run experiments/configs/bar_8cm.yaml --set "
+     "  example: halfstep run bar_8cm --set "
      "smoothing.margins.clearance_m=0.004",
      DeclareRun},
     {"smooth",
@@ -32,11 +34,11 @@ constexpr CommandEntry kEntries[] = {
      DeclareCompare},
     {"plan",
      "Plan footsteps to the goal of a config and print them as YAML.\n\n"
-     "  example: halfstep plan experiments/configs/island.yaml --set planner.name=astar",
+     "  example: halfstep plan island --set planner.name=astar",
      DeclarePlan},
     {"bake",
      "Certify a config's set of half-steps and bake their swept volumes into the cache.\n\n"
-     "  example: halfstep bake experiments/configs/island.yaml",
+     "  example: halfstep bake island",
      DeclareBake},
     {"draw",
      "Print a scene that is drawn at random, as YAML.\n\n"
@@ -57,8 +59,9 @@ constexpr CommandEntry kEntries[] = {
      DeclareScene},
     {"check",
      "Prove of anybody's joint trajectory that it keeps limits and clearances between its "
-     "knots.\n\n"
-     "  example: halfstep check arm.csv --robot arm.urdf --scene table.yaml --clearance 0.01",
+     "knots,\nor of a run's walks what their certificates demand, in interval arithmetic.\n\n"
+     "  example: halfstep check arm.csv --robot arm.urdf --scene table.yaml --clearance 0.01\n"
+     "  example: halfstep check runs/bar_8cm",
      DeclareCheck},
     {"verify",
      "Check a run's certificates independently: played motion, forward kinematics, distances\n"
@@ -68,7 +71,7 @@ constexpr CommandEntry kEntries[] = {
      DeclareVerify},
     {"live",
      "Let a robot walk while the world changes: an episode, into a folder.\n\n"
-     "  example: halfstep live experiments/episodes/live_bar.yaml",
+     "  example: halfstep live live_bar",
      DeclareLive},
     {"recover",
      "Write the folder of an episode whose process was killed, from the record that it left.\n\n"
@@ -77,8 +80,13 @@ constexpr CommandEntry kEntries[] = {
     {"sweep",
      "Run a config with every combination of some keys; the same command goes on where it was\n"
      "stopped.\n\n"
-     "  example: halfstep sweep experiments/sweeps/bar_8cm_speed_clearance.yaml --jobs 2",
+     "  example: halfstep sweep bar_8cm_speed_clearance --jobs 2",
      DeclareSweep},
+    {"bench",
+     "Scenes of clutter below, beside and overhead, by difficulty and seed, and how planners do "
+     "in\nthem; the same command goes on where it was stopped.\n\n"
+     "  example: halfstep bench --kinds below,overhead --seeds 5 --out runs/bench",
+     DeclareBench},
     {"explain-config",
      "Every key of a config: type, unit, default, range, meaning.\n\n"
      "  example: halfstep explain-config smoothing.margins",
@@ -104,9 +112,34 @@ constexpr CommandEntry kEntries[] = {
     {"list", "What there is.\n\n  example: halfstep list methods", DeclareList},
 };
 
+// Version and commit, and on a line of its own what it was built with.
+std::string VersionText() {
+  std::string text = std::string(kVersion) + " (" + std::string(kCommit) + ")\n";
+  text += std::string(kBuildType) + ", " + std::string(kCompiler);
+  for (const auto& [library, version] : kLibraries) {
+    text += ", " + std::string(library) + " " + std::string(version);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::span<const CommandEntry> CommandEntries() { return kEntries; }
+
+std::vector<DeclaredCommand> DeclareProgram(CLI::App* app, const Toolbox& tools) {
+  app->description(
+      "Plans and smooths humanoid walks made of half-steps.\n\n"
+      "  example: halfstep run bar_8cm");
+  app->set_version_flag("--version", VersionText());
+  app->require_subcommand(0, 1);  // none at all is told later, so that a misspelt one is named
+  std::vector<DeclaredCommand> commands;
+  for (const CommandEntry& entry : CommandEntries()) {
+    CLI::App* const command = app->add_subcommand(entry.name, entry.help);
+    commands.emplace_back(command, entry.declare(command, tools));
+    RefuseDecimalCommas(command);
+  }
+  return commands;
+}
 
 void DeclareOverrides(CLI::App* app, const std::string& what, std::vector<std::string>* sets) {
   app->add_option("--set", *sets, "override a key of " + what + ": KEY=VALUE")

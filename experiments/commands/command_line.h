@@ -5,6 +5,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "experiments/config/toolbox.h"
@@ -27,6 +28,12 @@ struct CommandEntry {
 
 /// Every command. To add one, write its file with a Declare function and add a row in the source.
 std::span<const CommandEntry> CommandEntries();
+
+/// A command as it is declared in a program, and what it does.
+using DeclaredCommand = std::pair<CLI::App*, CommandAction>;
+
+/// Declares all commands and options of the program in `app`.
+std::vector<DeclaredCommand> DeclareProgram(CLI::App* app, const Toolbox& tools);
 
 /// Declares `--set KEY=VALUE`, repeatable, for the keys of `what`.
 void DeclareOverrides(CLI::App* app, const std::string& what, std::vector<std::string>* sets);
@@ -72,5 +79,6 @@ CommandAction DeclareRecover(CLI::App* app, const Toolbox& tools);
 CommandAction DeclareRobot(CLI::App* app, const Toolbox& tools);
 CommandAction DeclareScene(CLI::App* app, const Toolbox& tools);
 CommandAction DeclareCheck(CLI::App* app, const Toolbox& tools);
+CommandAction DeclareBench(CLI::App* app, const Toolbox& tools);
 
 }  // namespace halfstep

@@ -37,6 +37,7 @@ struct LiveCommand {
   bool view = false;                  ///< serves a page
   int port = 0;                       ///< of the page; 0: any that is free
   std::optional<std::string> socket;  ///< serves messages there
+  bool wait = false;                  ///< begins when a client has come
   bool in_physics = false;  ///< a simulated robot executes the walk, and is what is measured from
   replay::SimulatedRobot simulated;  ///< that robot; its controllers count
   std::vector<replay::Push> pushes;  ///< of its waist, in times of the walk
@@ -102,9 +103,10 @@ struct SceneCommand {
 ExitStatus ConvertScene(const SceneCommand& command);
 
 struct CheckCommand {
-  std::string trajectory;  ///< anybody's, of joints
-  std::string robot;       ///< URDF, robot file or shipped robot's name
-  std::string scene;       ///< file or shipped scene's name; "": no obstacles
+  std::string trajectory;                  ///< anybody's, of joints; or the folder of a run
+  std::optional<std::string> method = {};  ///< of a run; none: all that are certified
+  std::string robot;                       ///< URDF, robot file or shipped robot's name
+  std::string scene;                       ///< file or shipped scene's name; "": no obstacles
   std::optional<checker::Interpolation> interpolation = {};  ///< none: by what the file has
   checker::TrajectoryDemands demands;                        ///< what is asked
   std::map<std::string, std::string> packages = {};          ///< of package:// names
@@ -112,7 +114,8 @@ struct CheckCommand {
 };
 
 /// `halfstep check`: whether a trajectory keeps what is asked at every time between its knots
-/// (CheckTrajectory). kFailed where that is not proved. Writes no file. Throws InputError.
+/// (CheckTrajectory), or the walks of a run what their certificates demand (CheckWalk). kFailed
+/// where that is not proved. Writes no file. Throws InputError.
 ExitStatus CheckMotion(const CheckCommand& command);
 
 struct SmoothCommand {

@@ -57,6 +57,9 @@ LiveConfig Adapted(const LiveCommand& command, const LiveConfig& config) {
     throw InputError({"--in-physics: " + why});
   }
   CheckClientControl(command);
+  if (command.wait && !IsServed(command)) {
+    throw InputError({"--wait: no client can come (valid: with --view or --serve)"});
+  }
   if (IsServed(command)) {
     if (!WhyNoServer().empty()) throw InputError({"--view, --serve: " + WhyNoServer()});
     if (command.view && !HasReport()) {
@@ -82,7 +85,7 @@ void PrintPlaces(const LiveCommand& command, const ServedEpisode& served) {
   screen << (command.in_physics ? "clock        lockstep; the robot waits for the client that "
                                   "controls it\n"
                                 : "clock        wall, as clients need it\n")
-         << std::flush;
+         << (command.wait ? "waits        for its first client\n" : "") << std::flush;
 }
 
 std::unique_ptr<ServedEpisode> Serve(const LiveCommand& command, const LiveConfig& config,
@@ -236,6 +239,7 @@ ExitStatus Live(const LiveCommand& command) {
     return kInterrupted;
   }
   if (served) served->Prepare(thinking.volumes);
+  if (command.wait) served->WaitForClient(interrupt.token());
   RunFolder folder(OutputFolder(command.run, config.experiment), command.run.overwrite);
   std::optional<ProgressBar> bar;
   bar.emplace("episode", silent);
@@ -291,6 +295,7 @@ CommandAction DeclareLive(CLI::App* app, const Toolbox& tools) {
       ->needs(view);
   CLI::Option* const serve = app->add_option(
       "--serve", command->socket, "serve the same messages by a Unix-domain socket of this path");
+  app->add_flag("--wait", command->wait, "with --view or --serve: begins when a client has come");
   CLI::Option* const in_physics =
       app->add_flag("--in-physics", command->in_physics,
                     "a robot simulated by MuJoCo executes the walk; the world is measured from it")

@@ -10,6 +10,7 @@
 #include "experiments/config/experiment.h"
 #include "experiments/run/interrupt.h"
 #include "experiments/run/plan_json.h"
+#include "experiments/run/plan_yaml.h"
 #include "experiments/run/planning.h"
 #include "experiments/run/progress_bar.h"
 #include "wpg/files/input_error.h"
@@ -62,25 +63,7 @@ void PrintPlan(const PlannedWalk& walk) {
             << " ms\n"
             << std::defaultfloat << std::setprecision(6)
             << (walk.detour.empty() ? "" : "# " + walk.detour + "\n")
-            << NotCoveredText(walk.not_covered, "--json", "# ");
-  if (!walk.changed_half_step.empty()) {
-    std::cout << "half_step: {" << walk.changed_half_step << "}\n";
-  }
-  std::vector<FootstepConfig> footsteps = walk.config.footsteps;
-  for (size_t i = 0; i < footsteps.size(); ++i) {
-    Nth(footsteps, i).on.z = Nth(plan.footsteps, i).X_WF.height;
-  }
-  std::cout << WriteYaml([&](Fields& fields) {
-    fields.List("footsteps", {}, &footsteps, [&walk](Fields& f, FootstepConfig* step) {
-      f.Text("foot", &step->foot, {});
-      f.Number("x_m", &step->X_WF.x, {});
-      f.Number("y_m", &step->X_WF.y, {});
-      f.Number("yaw_deg", &step->X_WF.yaw, {});
-      if (walk.on_levels) f.OptionalNumber("z_m", &step->on.z, {});
-      f.OptionalNumber("rest_s", &step->rest, {.none_left_out = true});
-      f.OptionalNumber("rest_on_one_foot_s", &step->rest_on_one_foot, {.none_left_out = true});
-    });
-  });
+            << NotCoveredText(walk.not_covered, "--json", "# ") << PlanYaml(walk);
 }
 
 std::uintmax_t SizeOf(const std::string& path) {

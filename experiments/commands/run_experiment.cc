@@ -1,14 +1,13 @@
 #include "experiments/commands/run_experiment.h"
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <iostream>
 #include <new>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "experiments/about/build_info.h"
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/command_mistake.h"
 #include "experiments/commands/printable_stream.h"
@@ -42,19 +41,9 @@ int RunAction(const CommandAction& action) {
 int RunExperiment(int argc, char** argv, const Toolbox& tools) {
   RemoveLeftoversAtSignals();
   const PrintableStream out(&std::cout), err(&std::cerr);
-  CLI::App app{
-      "Plans and smooths humanoid walks made of half-steps.\n\n"
-      "  example: halfstep run experiments/configs/bar_8cm.yaml"};
-  app.set_version_flag("--version", std::string(kVersion) + " (" + std::string(kCommit) + ")");
-  app.require_subcommand(0, 1);  // none at all is told below, so that a misspelt one is named
-  std::vector<std::pair<CLI::App*, CommandAction>> commands;
-  std::string names;
-  for (const CommandEntry& entry : CommandEntries()) {
-    CLI::App* const command = app.add_subcommand(entry.name, entry.help);
-    commands.emplace_back(command, entry.declare(command, tools));
-    RefuseDecimalCommas(command);
-    names += (names.empty() ? "" : ", ") + std::string(entry.name);
-  }
+  CLI::App app;
+  if (argc > 0) app.name(std::filesystem::path(argv[0]).filename().string());
+  const std::vector<DeclaredCommand> commands = DeclareProgram(&app, tools);
   if (const std::string mistake = CommandMistake(argc, argv); !mistake.empty()) {
     std::cerr << "halfstep: " << mistake << '\n';
     return kBadInput;
@@ -75,6 +64,10 @@ int RunExperiment(int argc, char** argv, const Toolbox& tools) {
   }
   for (const auto& [command, action] : commands) {
     if (*command) return RunAction(action);
+  }
+  std::string names;
+  for (const auto& [command, action] : commands) {
+    names += (names.empty() ? "" : ", ") + command->get_name();
   }
   std::cerr << "halfstep: which command? (valid: " << names << "; `halfstep -h` explains)\n";
   return kBadInput;

@@ -44,6 +44,11 @@ Episode EpisodeLoop::Run(const std::array<Foothold, 2>& start) {
     clock_.WaitUntil(now);
     Sense(now);
     if (thinking_) {
+      // Not twice in a row, or a world that never rests would never let the walk be smoothed.
+      if (!hurried_ && !hurried_before_ && DiffersClearly(*asked_about_, *world_)) {
+        thinker_.Hurry(now);
+        hurried_ = true;
+      }
       if (const std::optional<Proposal> proposal = thinker_.Answer(now)) Take(*proposal, now);
     }
     Advance(now);
@@ -151,6 +156,7 @@ void EpisodeLoop::Ask(double now) {
                 .shorten = tries_ > 0,
                 .used_up = used_up_});
   thinking_ = true;
+  hurried_before_ = std::exchange(hurried_, false);
   asked_ = now;
   again_ = false;
 }

@@ -69,6 +69,7 @@ class EpisodeLoop {
   std::string awaited_;
   // What the thinker does.
   bool thinking_ = false;
+  bool hurried_ = false, hurried_before_ = false;  // this question, and the one before
   double asked_ = 0.0;
   double patience_ = 0.0;  // what an answer may take: the budget, or more after a late one [s]
   std::shared_ptr<const World> asked_about_;

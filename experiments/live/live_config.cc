@@ -58,6 +58,13 @@ void DeclareBudget(Fields& fields, BudgetConfig* c, double half_step) {
   time("plan_s", &c->plan, "what planning anew costs in lockstep");
   time("smooth_s", &c->smooth, "what finding the overlaps of a few junctions costs in lockstep");
   fields.Misplaced("refine_s", "is gone with `refine` (leave it out)");
+  fields.Number("effort_s", &c->effort,
+                {.meaning = "a unit of counted effort takes so long, in place of the three above, "
+                            "which then say how long answers are waited for; 0: these are charged",
+                 .unit = "s",
+                 .min = 0,
+                 .max = 10,
+                 .left_out = 0.0});
   for (const auto& [key, value] : {std::pair{"check_s", c->check}, std::pair{"plan_s", c->plan},
                                    std::pair{"smooth_s", c->smooth}}) {
     if (value >= half_step) {

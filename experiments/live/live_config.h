@@ -30,6 +30,9 @@ struct BudgetConfig {
   double check = 0.005;  ///< looking at what is to come
   double plan = 0.04;    ///< planning anew, and proving the result
   double smooth = 0.04;  ///< the overlaps of a few junctions
+  /// A unit of effort (Work::effort()), in place of the three, which then only say how long an
+  /// answer is waited for; 0: they are charged.
+  double effort = 0.0;
 };
 
 /// How an episode goes.

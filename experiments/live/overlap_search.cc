@@ -55,11 +55,11 @@ std::vector<FixedParameter> AllBut(const std::vector<int>& next, const WalkPlan&
 }  // namespace
 
 bool FindOverlaps(const SafetyCheck& safety, const LiveConfig& config, double from, int begun,
-                  int ahead, Proposal* proposal) {
+                  int ahead, Proposal* proposal, std::stop_token stop) {
   constexpr double kSampled = 0.04;  // [s]
   const SuperposedWalk walk = proposal->plan.Walk();
   const auto [next, cap] = NextJunctions(walk, config.live, from, begun, ahead, *proposal);
-  if (next.empty()) return false;
+  if (next.empty() || stop.stop_requested()) return false;
   // Half-steps that end later are not under way where these overlaps count, and only meet the same
   // world earlier, when less is uncertain.
   const int last = std::min(next.back() + 4, walk.num_half_steps() - 1);
@@ -72,7 +72,7 @@ bool FindOverlaps(const SafetyCheck& safety, const LiveConfig& config, double fr
   const auto sampled = std::make_shared<StoppableFeasibility>(
       std::make_shared<SampledFeasibility>(safety.evaluator(), kSampled), StopBranches::kAll);
   const WalkProblem problem(proposal->plan.sequence, test, AllBut(next, proposal->plan));
-  SmoothingMonitor monitor;
+  SmoothingMonitor monitor({.stop = stop, .stop_proof = stop});
   const SmoothingResult result =
       Dichotomy(problem,
                 {.tolerance = config.live.tolerance,
@@ -81,8 +81,9 @@ bool FindOverlaps(const SafetyCheck& safety, const LiveConfig& config, double fr
                  .accepted_start = AcceptedInParts::Walk(proposal->plan.parameters),
                  .cheaper = sampled},
                 monitor);
-  proposal->plan.parameters = result.parameters;
   proposal->effort += result.work.effort();
+  if (stop.stop_requested()) return false;
+  proposal->plan.parameters = result.parameters;
   for (const int j : next) Nth(proposal->smoothed, j) = true;
   proposal->first_changed = next.front() + 1;
   return true;

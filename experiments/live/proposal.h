@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,6 +30,7 @@ struct Situation {
   int refused = 0;       ///< number of a list of footsteps that was refused; 0: none
   bool shorten = false;  ///< when nothing else is to be done, look for a shorter way
   int used_up = 0;       ///< proposals in a row until now whose searches used up all nodes in vain
+  std::stop_token hurry = {};  ///< requested: nothing is begun that only improves a safe walk
 };
 
 /// What kind of answer a replanner gives.

@@ -14,7 +14,7 @@
 namespace halfstep {
 namespace {
 
-constexpr int kMostNear = 4;      // half-steps one after the other that keep less than demanded
+constexpr int kMostNear = 4;  // half-steps one after the other that keep less than demanded
 
 // Whether the robot waits before half-steps that are planned.
 bool GoesOn(const Situation& s) { return s.stopped && s.begun + 1 < s.plan.sequence.size(); }
@@ -257,13 +257,13 @@ void Replanner::Improve(const Situation& s, const PreparedWorld& among, const Ne
     return;
   }
   const double smooth = SteadySeconds();
-  if (FindOverlaps(among.safety, config_, s.hand_over, s.begun, config_.live.smooth_ahead,
-                   proposal)) {
+  if (FindOverlaps(among.safety, config_, s.hand_over, s.begun, config_.live.smooth_ahead, proposal,
+                   s.hurry)) {
     proposal->kind = ProposalKind::kSmoothed;
     proposal->reason = "overlaps";
   }
   proposal->smooth_s = SteadySeconds() - smooth;
-  if (among.world.course) return;
+  if (among.world.course || s.hurry.stop_requested()) return;
   if (proposal->kind == ProposalKind::kSafe && s.shorten) Shorten(s, among, near, random, proposal);
 }
 

@@ -1,5 +1,6 @@
 #include "experiments/live/thinker.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace halfstep {
@@ -14,11 +15,28 @@ LockstepThinker::LockstepThinker(const Replanner& replanner, std::uint64_t seed)
     : replanner_(replanner), worlds_(replanner), random_(seed) {}
 
 void LockstepThinker::Ask(Situation situation) {
+  question_ = std::move(situation);
+  before_ = random_;
+  proposal_ = replanner_.Propose(question_, worlds_.Of(question_.world), random_);
+  ready_ = ReadyAt();
+}
+
+double LockstepThinker::ReadyAt() const {
   const BudgetConfig& budget = replanner_.config().live.budget;
-  proposal_ = replanner_.Propose(situation, worlds_.Of(situation.world), random_);
+  if (budget.effort > 0.0) return question_.now + budget.effort * proposal_->effort;
   const bool planned = proposal_->planned.status != PlanStatus::kNotRun;
-  ready_ = situation.now + budget.check + (planned ? budget.plan : 0.0) +
-           (proposal_->kind == ProposalKind::kSmoothed ? budget.smooth : 0.0);
+  return question_.now + budget.check + (planned ? budget.plan : 0.0) +
+         (proposal_->kind == ProposalKind::kSmoothed ? budget.smooth : 0.0);
+}
+
+void LockstepThinker::Hurry(double now) {
+  if (!proposal_ || now >= ready_ || replanner_.config().live.budget.effort == 0.0) return;
+  std::stop_source hurry;
+  hurry.request_stop();
+  question_.hurry = hurry.get_token();
+  random_ = before_;
+  proposal_ = replanner_.Propose(question_, worlds_.Of(question_.world), random_);
+  ready_ = std::max(now, ReadyAt());
 }
 
 std::optional<Proposal> LockstepThinker::Answer(double now) {
@@ -34,6 +52,8 @@ ThreadThinker::ThreadThinker(const Replanner& replanner, std::uint64_t seed)
 void ThreadThinker::Ask(Situation situation) {
   {
     const std::lock_guard lock(mutex_);
+    hurry_ = {};
+    situation.hurry = hurry_.get_token();
     question_ = std::move(situation);
   }
   asked_.notify_one();
@@ -42,6 +62,11 @@ void ThreadThinker::Ask(Situation situation) {
 std::optional<Proposal> ThreadThinker::Answer(double /*now*/) {
   const std::lock_guard lock(mutex_);
   return std::exchange(answer_, std::nullopt);
+}
+
+void ThreadThinker::Hurry(double /*now*/) {
+  const std::lock_guard lock(mutex_);
+  hurry_.request_stop();
 }
 
 void ThreadThinker::Work(const std::stop_token& stop) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "experiments/run/crouched_forms.h"
 #include "experiments/run/obstacle_footprint.h"
 #include "experiments/run/stepping_over.h"
 #include "planner/swept/swept_volume_query.h"
@@ -124,10 +125,16 @@ Hindrance FindBlocking(const WatchedQuery& watched, const SweptVolumes& volumes,
     found.words += ", which counts everywhere that it ever is (`planner.moving`)";
     return found;
   }
-  const double top = BoundsOf(blocking->shape, blocking->X_WO).max().z();
-  const double lift = volumes.set.prototype.via_height;
   const std::string over =
       NoHalfStepOver(*blocking, place.robot, volumes, limits.demanded_of(MarginFamily::kClearance));
+  const std::string hangs =
+      HangsTooLow(*blocking, place.robot, limits.demanded_of(MarginFamily::kClearance));
+  if (over.empty() && !hangs.empty()) {
+    found.words += "; " + hangs;
+    return found;
+  }
+  const double top = BoundsOf(blocking->shape, blocking->X_WO).max().z();
+  const double lift = volumes.set.prototype.via_height;
   if (!over.empty()) {
     found.words += "; " + over;
   } else if (top >= lift) {

@@ -7,7 +7,7 @@
 #include "experiments/run/half_step_table.h"
 #include "experiments/run/plan_by_volumes.h"
 #include "wpg/files/input_error.h"
-#include "wpg/files/suggestion.h"
+#include "wpg/files/text.h"
 #include "wpg/nth.h"
 #include "wpg/robot/robot_measures.h"
 

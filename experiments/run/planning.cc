@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "experiments/run/certificate_query.h"
+#include "experiments/run/crouched_forms.h"
 #include "experiments/run/footstep_search.h"
 #include "experiments/run/ground_steps.h"
 #include "experiments/run/half_step_forms.h"
@@ -123,6 +124,51 @@ void PlanByForms(const Place& place, const PlanningHooks& hooks, PlannedWalk* wa
   }
 }
 
+// By volumes. Where that finds nothing and something hangs so low that the standing robot does not
+// pass, while a lower one might, it is searched with half-steps that are crouched all the way; that
+// first, where what hangs bars every way.
+void PlanUprightOrCrouched(const Place& place, const PlanningHooks& hooks, PlannedWalk* walk) {
+  const Overhead overhead(walk->config, place);
+  if (!overhead.may_help()) return PlanByVolumes(place, hooks, walk);
+  PlannedWalk asked = *walk, upright = *walk;
+  const double effort = walk->config.planner.effort;
+  asked.config.planner.effort = 0.5 * effort;
+  const auto plan_with = [&](const HalfStepConfig& half_step) {
+    PlannedWalk planned = asked;
+    planned.config.half_step = half_step;
+    PlanByVolumes(place, hooks, &planned);
+    planned.config.planner.effort = effort;
+    return planned;
+  };
+  const auto has_ended = [](const PlannedWalk& planned) {
+    return planned.plan.status == PlanStatus::kSolved ||
+           planned.plan.status == PlanStatus::kInterrupted;
+  };
+  const HalfStepConfig& own = asked.config.half_step;
+  const bool crouched_first = overhead.Bars();
+  if (!crouched_first) {
+    *walk = upright = plan_with(own);
+    if (has_ended(upright)) return;
+  }
+  const std::vector<CrouchedForm> forms = overhead.Forms();
+  std::string tried;
+  for (const CrouchedForm& form : forms) {
+    *walk = plan_with(form.half_step);
+    if (walk->plan.status == PlanStatus::kSolved) {
+      walk->changed_half_step = Differences(form.half_step, own);
+      walk->plan.sentence += ", half_step: {" + walk->changed_half_step +
+                             "} from the first to the last, since " + form.reason;
+    }
+    if (has_ended(*walk)) return;
+    tried += "; nor is there a plan with half_step: {" + Differences(form.half_step, own) + "}";
+  }
+  if (crouched_first) upright = plan_with(own);
+  *walk = std::move(upright);
+  if (has_ended(*walk)) return;
+  walk->plan.sentence +=
+      forms.empty() ? "; no half-step is certified that is crouched enough" : tried;
+}
+
 }  // namespace
 
 PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
@@ -154,9 +200,11 @@ PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
   if (by_certificates) {
     PlanByForms(place, hooks, &walk);
   } else {
-    PlanByVolumes(place, hooks, &walk);
+    walk.in_time || walk.on_levels ? PlanByVolumes(place, hooks, &walk)
+                                   : PlanUprightOrCrouched(place, hooks, &walk);
     const bool may_prove = in_time || !AnythingMoves(place.scene);
-    if (!walk.in_the_way.empty() && !walk.on_levels && may_prove) {
+    const bool upright = walk.changed_half_step.empty();
+    if (!walk.in_the_way.empty() && upright && !walk.on_levels && may_prove) {
       PlanOver(config, place, hooks, &walk);
     }
   }

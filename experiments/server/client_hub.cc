@@ -34,6 +34,7 @@ ClientHub::ClientHub(const LiveConfig& config, const Place& place, ClientInbox* 
 
 void ClientHub::Join(ClientLine* line) {
   clients_.emplace(line, Client{});
+  inbox_.Come();
   line->Send(hello_);
   for (const char* kind : {"waiting", "world", "walk", "grant"}) {
     if (const auto text = newest_.find(kind); text != newest_.end()) line->Send(text->second);

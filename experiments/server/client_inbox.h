@@ -28,6 +28,10 @@ class ClientInbox {
   std::vector<Measurement> TakeMeasurements();  ///< all that came since the last call, in order
   std::vector<Edit> TakeEdits();                ///< all that came since the last call, in order
 
+  /// A client has come.
+  void Come() { has_come_ = true; }
+  bool has_come() const { return has_come_; }  ///< whether one ever did
+
   /// Whether no half-step is to begin for the time being.
   void Hold(bool held) { held_ = held; }
   bool held() const { return held_; }  ///< whether Hold(true) was said last
@@ -40,7 +44,7 @@ class ClientInbox {
   std::mutex mutex_;  // of the two that follow
   std::vector<Measurement> measurements_;
   std::vector<Edit> edits_;
-  std::atomic<bool> held_ = false;
+  std::atomic<bool> held_ = false, has_come_ = false;
   std::stop_source end_;
 };
 

@@ -1,6 +1,8 @@
 #include "experiments/server/served_episode.h"
 
 #include <algorithm>
+#include <chrono>
+#include <thread>
 #include <utility>
 
 #include "experiments/live/messages.h"
@@ -53,6 +55,12 @@ ServedEpisode::ServedEpisode(const LiveConfig& config, const Place& place,
       hub_(config, place, &inbox_, &board_, &*control_),
       server_(std::make_unique<Server>(options, &hub_)) {
   Wait("half-steps are prepared");
+}
+
+void ServedEpisode::WaitForClient(const std::stop_token& stop) {
+  using namespace std::chrono_literals;
+  board_.Wait("for its first client");
+  while (!inbox_.has_come() && !stop.stop_requested()) std::this_thread::sleep_for(10ms);
 }
 
 std::vector<ScriptEvent> ServedEpisode::Script() const {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <utility>
 
@@ -45,6 +46,8 @@ class ServedEpisode {
 
   /// Half-steps are prepared: clients that want them are told these volumes.
   void Prepare(std::shared_ptr<const SweptVolumes> volumes) { board_.Prepare(std::move(volumes)); }
+  /// Returns when a client has come, or when `stop` is requested.
+  void WaitForClient(const std::stop_token& stop);
   void Wait(const std::string& reason) { board_.Wait(reason); }  ///< there is no walk yet, and why
   /// After each tick of the episode.
   void Tick(const EpisodeTick& tick) { board_.Tick(tick, held() || inbox_.ended()); }

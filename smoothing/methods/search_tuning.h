@@ -4,7 +4,7 @@ namespace halfstep {
 
 /// The constants of searches in rounds (RangeSearch), one place for all of them. Source:
 /// smoothing/README.md, "The search"; what some of them do to walks:
-/// notebooks-data/measurements.md, "Search by effort".
+/// notebooks-data/measurements.md, "Tried and dropped".
 struct SearchTuning {
   /// Instants a half-step with rows of their own, where a solver likes many rows.
   int instants = 24;

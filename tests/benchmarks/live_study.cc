@@ -2,7 +2,8 @@
 //   live_study [FIRST [COUNT [POLICY [THREADS [MINUTES]]]]]
 //   live_study events SEED [POLICY]
 // Default: seeds 1 … 100, policy replan, one thread; no episode begins after so many minutes. The
-// policy `wall` is replan by the wall clock. `events` prints what happened in one episode. HRP-2's
+// policy `wall` is replan by the wall clock, `counted` replan in lockstep that charges what was
+// counted, 1 s a unit of effort. `events` prints what happened in one episode. HRP-2's
 // swept volumes from the user's cache, baked when they are not there.
 
 #include <cstdio>
@@ -22,8 +23,9 @@ using namespace halfstep;
 LiveStudy MakeStudy(const std::string& policy) {
   LiveStudy study;
   study.base = LoadLiveConfig(HALFSTEP_SOURCE_DIR "/experiments/episodes/live_bar.yaml", {});
-  study.base.live.policy = policy == "wall" ? "replan" : policy;
+  study.base.live.policy = policy == "wall" || policy == "counted" ? "replan" : policy;
   if (policy == "wall") study.base.live.clock = "wall";
+  if (policy == "counted") study.base.live.budget.effort = 1.0;
   study.base.live.longest = 90.0;
   study.place = LoadPlace(study.base.experiment);
   study.baked = BakeHalfSteps(study.place.robot, study.base.experiment, {});

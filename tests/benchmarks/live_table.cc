@@ -102,6 +102,8 @@ void PrintTable(const Episodes& episodes) {
        std::to_string(CountOf(episodes, [](const auto& e) { return e.excused; })), "");
   Line("from the measurement to the hand-over of a safe walk, median, p99",
        Milliseconds(Latencies(episodes, &Latency::whole)), "20 ms, 100 ms");
+  Line("of that the answer, from when work began, median, p99",
+       Milliseconds(Latencies(episodes, &Latency::answer)), "20 ms, 100 ms");
   Line("the same with the searches before that found nothing",
        Milliseconds(Latencies(episodes, &Latency::since_unsafe)), "");
   Line("at most one half-step begun between measurement and the first changed one",

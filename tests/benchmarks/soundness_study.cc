@@ -1,6 +1,7 @@
 // Whether what the query calls free is certified: random elements of the certified set at random
 // places among random boxes, cylinders, spheres and capsules.
-//   soundness_study [N [SEED [ROBOT]]]     default: 100000 half-steps, seed 1, hrp2
+//   soundness_study [N [SEED [ROBOT [CROUCH VIA]]]]     default: 100000 half-steps, seed 1, hrp2
+// With half_step.crouch_m and via_height_m [m] obstacles hang over the robot, too.
 // ROBOT may be NAME-unequal or NAME-offset, whose legs differ (tests/oracle/unequal_legs.h).
 // Prints the figures of planner/README.md, "Swept volumes". Exit status 1: a contradiction. Swept
 // volumes from the user's cache, baked when they are not there. Other robots than HRP-2 among
@@ -10,6 +11,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <vector>
 
 #include "experiments/config/experiment.h"
 #include "experiments/run/planning.h"
@@ -42,15 +44,15 @@ Shape DrawShape(int kind, double size, SweptDraw* draw) {
 }
 
 // As many of each shape; every second one upright on the floor (a ball half sunk), the others
-// tilted, up to 0.8 m above it; all lengths times `size`.
-Scene DrawMixed(int count, double size, SweptDraw* draw) {
+// tilted, up to `high` [m] above it; all lengths times `size`.
+Scene DrawMixed(int count, double size, double high, SweptDraw* draw) {
   Scene scene;
   for (int i = 0; i < count; ++i) {
     const bool upright = draw->Index(2) == 0;
     Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
     X_WO.linear() = draw->Turn(upright);
     X_WO.translation() =
-        size * draw->Point({-kReach, -kReach, 0}, {kReach, kReach, upright ? 0.3 : 0.8});
+        size * draw->Point({-kReach, -kReach, 0}, {kReach, kReach, upright ? 0.3 : high});
     scene.obstacles.push_back(
         {"obstacle " + std::to_string(i), DrawShape(i % 4, size, draw), X_WO});
   }
@@ -73,13 +75,17 @@ int main(int argc, char** argv) {
   const std::string path = oracle::StudiedRobot(name, folder.path().string());
   const RobotModel robot = LoadRobot(path);
   const double size = LegScale(robot);
+  std::vector<YamlOverride> overrides = {{"robot", path}};
+  if (argc > 5) overrides.push_back({"half_step.crouch_m", argv[4]});
+  if (argc > 5) overrides.push_back({"half_step.via_height_m", argv[5]});
+  const double high = argc > 5 ? 2.0 : 0.8;
   const ExperimentConfig config =
-      LoadConfig(HALFSTEP_SOURCE_DIR "/experiments/configs/island.yaml", {{"robot", path}});
+      LoadConfig(HALFSTEP_SOURCE_DIR "/experiments/configs/island.yaml", overrides);
   const BakedHalfSteps baked = BakeHalfSteps(robot, config, {});
   const SweptVolumes& volumes = *baked.cached.volumes;
   Counts n;
   while (n.asked < wanted) {
-    const Scene scene = DrawMixed(50, size, &draw);
+    const Scene scene = DrawMixed(50, size, high, &draw);
     const SweptVolumeQuery query(volumes, robot.sole_outline, scene);
     const HalfStepCertifier certifier(robot, scene, config);
     for (int k = 0; k < kHalfStepsInAScene && n.asked < wanted; ++k) {

@@ -21,7 +21,7 @@ HomotopyParameters FastestOf(const Experiment& e, ParameterChoice choice, int ro
   options.program.parameters = choice;
   options.rounds = rounds;
   if (windows) options.only = SearchStage{.window = 4, .step = 2, .passes = 2, .rounds = rounds};
-  options.effort = 10.0;
+  options.effort = 2.0;
   options.tolerance = 0.02;
   const WalkProblem problem = ProblemOf(e.sequence, test);
   const SmoothingResult result = Smoothed(OptimizeOverlaps, problem, options);

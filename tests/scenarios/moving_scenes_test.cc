@@ -37,10 +37,10 @@ class EveryMethod : public testing::TestWithParam<std::string> {};
 TEST_P(EveryMethod, ReturnsACertifiedWalkAcrossABarThatMoves) {
   const Experiment e = LoadExperiment("crossing");
   const CertifiedFeasibility test(MarginEvaluator(e.robot, e.scene, e.config.smoothing.limits), {});
-  SmoothingMonitor monitor({.effort = 2.0});
+  SmoothingMonitor monitor({.effort = 0.5});
   MethodOptions options;
   OptimizerOptions& optimizer = options.Edit(OptimizerGroup()).options;
-  optimizer.effort = 2.0;
+  optimizer.effort = 0.5;
   optimizer.program.parameters = {.heights = true, .durations = true};
   const SmoothingResult result =
       Methods::Standard().Find(GetParam()).Smooth(ProblemOf(e.sequence, test), options, monitor);

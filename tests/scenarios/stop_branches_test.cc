@@ -32,7 +32,8 @@ class StoppedScene : public testing::TestWithParam<const char*> {
   SmoothingResult Optimized(StopBranches branches) const {
     OptimizerOptions options;
     options.program.parameters = {.heights = true, .durations = true};
-    options.rounds = 2;
+    options.rounds = 1;
+    options.effort = 1.0;
     const StoppableFeasibility stoppable(test_, branches);
     return Smoothed(OptimizeOverlaps, ProblemOf(scene_.sequence, stoppable), options);
   }

@@ -103,6 +103,17 @@ class Served {
   if (!WhyNoServer().empty()) GTEST_SKIP() << WhyNoServer(); \
   if (!HasReport()) GTEST_SKIP() << "this build has no page"
 
+TEST(ServedEpisode, WaitsForItsFirstClientWhereItIsAskedTo) {
+  SKIP_WITHOUT_SERVER();
+  Served served(0.3, {"--wait", "--overwrite"});
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  Connection client = served.Socket();
+  const json waiting = client.ReadUntil("waiting");
+  EXPECT_EQ(waiting["reason"], "for its first client") << waiting;
+  client.ReadUntil("walk");
+  served.EndInTheGoal(&client);
+}
+
 TEST(ServedEpisode, TellsTheSweptVolumesOfEachWalk) {
   SKIP_WITHOUT_SERVER();
   Served served;

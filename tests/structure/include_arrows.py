@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Fails on an include between folders that points backwards, on a circle of folders, and on what
-`halfstep verify` should know nothing of.
+`halfstep verify` and `halfstep check` should know nothing of.
 
 A file of a top-level folder includes that folder and the ones below it: wpg below planner below
 smoothing below experiments; opt stands beside wpg and planner, below smoothing. wpg/elementary.h
@@ -24,10 +24,12 @@ BELOW = {
 
 BELOW_ALL = "wpg/elementary.h"
 
-# The independent checker reads files and configs. What else it includes is here, with the reason.
+# What proves again, or looks again, reads files and configs. What else it includes is here, with the
+# reason.
 VERIFY = "experiments/verify"
-OF_VERIFY = [VERIFY, "experiments/config", "wpg/files"]
-ALLOWED_IN_VERIFY = {
+CHECKER = "experiments/checker"
+FOLDERS_OF = {VERIFY: [VERIFY, "experiments/config", "wpg/files"], CHECKER: [CHECKER, "wpg/files"]}
+ALLOWED_IN = {VERIFY: {
     "experiments/live/live_config.h": "the reader of an episode's config",
     "experiments/live/spare_boxes.h": "the obstacles that such a config adds to its scene",
     "experiments/tables/certificate_statement.h": "the only statement that is accepted",
@@ -45,7 +47,24 @@ ALLOWED_IN_VERIFY = {
     "wpg/robot/not_covered.h": "the words of what is not covered",
     "wpg/robot/robot_model.h": "the reader of robots",
     "wpg/robot/torque_limits.h": "what a robot file states of torques",
-}
+}, CHECKER: {
+    "experiments/config/experiment.h": "the reader of configs",
+    "experiments/tables/csv_reader.h": "the reader of anybody's tables",
+    "experiments/verify/certificate_text.h": "the reader of certificates",
+    "experiments/verify/csv_text.h": "the reader of a run's tables",
+    "experiments/verify/found_inputs.h": "where robot and scene of a run are",
+    "experiments/verify/run_manifest.h": "the reader of manifests",
+    "experiments/verify/walk_text.h": "the reader of the tables that describe a walk",
+    "planner/scene/scene.h": "the reader of scenes",
+    "wpg/elementary.h": "sine and cosine, which are trusted to a unit in the last place",
+    "wpg/geometry/convex_body.h": "the shapes of robots and scenes",
+    "wpg/geometry/rotation.h": "rotations in doubles, of hints",
+    "wpg/nth.h": "elements by signed indices",
+    "wpg/robot/gravity.h": "a number",
+    "wpg/robot/robot_bodies.h": "the shapes of a URDF's links",
+    "wpg/robot/robot_model.h": "the reader of robots",
+    "wpg/robot/urdf_file.h": "the reader of URDF",
+}}
 
 
 def includes_of(path):
@@ -73,10 +92,11 @@ def may_include(name, target):
     return to == top or to in BELOW[top]
 
 
-def verify_may_include(name, target):
-    """Whether a file, if it is of verify, may include another."""
-    return (folder_of(name) != VERIFY or folder_of(target) in OF_VERIFY or
-            target in ALLOWED_IN_VERIFY)
+def independent_may_include(name, target):
+    """Whether a file, if it is of verify or of the checker, may include another."""
+    folder = folder_of(name)
+    return (folder not in ALLOWED_IN or folder_of(target) in FOLDERS_OF[folder] or
+            target in ALLOWED_IN[folder])
 
 
 def reached_from(folder, arrows):
@@ -92,7 +112,7 @@ def reached_from(folder, arrows):
 def main():
     wrong = []
     arrows = {}  # folder -> folder -> one pair of files
-    of_verify = set()
+    included_by = {folder: set() for folder in ALLOWED_IN}
     for top in [*BELOW, "tests"]:
         for path in sorted((ROOT / top).rglob("*")):
             if path.suffix not in (".h", ".cc"):
@@ -101,15 +121,16 @@ def main():
             for target in includes_of(path):
                 if not may_include(name, target):
                     wrong.append(f"{name} includes {target}: backwards")
-                if folder_of(name) == VERIFY:
-                    of_verify.add(target)
-                if not verify_may_include(name, target):
-                    wrong.append(f"{name} includes {target}: not for the independent checker")
+                if folder_of(name) in ALLOWED_IN:
+                    included_by[folder_of(name)].add(target)
+                if not independent_may_include(name, target):
+                    wrong.append(f"{name} includes {target}: not for what proves again")
                 if folder_of(name) != folder_of(target):
                     arrows.setdefault(folder_of(name), {}).setdefault(
                         folder_of(target), (name, target))
-    wrong += [f"{VERIFY} does not include {target} any more: it need not be allowed"
-              for target in ALLOWED_IN_VERIFY if target not in of_verify]
+    wrong += [f"{folder} does not include {target} any more: it need not be allowed"
+              for folder, allowed in ALLOWED_IN.items() for target in allowed
+              if target not in included_by[folder]]
     reached = {folder: reached_from(folder, arrows) for folder in arrows}
     for folder, targets in sorted(arrows.items()):
         for target, (name, included) in sorted(targets.items()):

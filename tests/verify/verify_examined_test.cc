@@ -81,7 +81,7 @@ std::string Accepted(const Tampered& tampered, const fs::path& folder, const std
   return accepted;
 }
 
-TEST(Examined, EveryValueOfARunIsComputedAgainOrOnTheList) {
+TEST(EveryValue, OfARunIsComputedAgainOrOnTheList) {
   TamperedRun run({.overrides = {"output.period_s=0.025"}});  // few rows, little time
   // Rows of methods that verify is not asked about.
   TamperedRun::EditCsv(run.run() / "summary.csv",
@@ -91,7 +91,7 @@ TEST(Examined, EveryValueOfARunIsComputedAgainOrOnTheList) {
   EXPECT_GT(tried, 90);
 }
 
-TEST(Examined, EveryValueOfAnEpisodeIsComputedAgainOrOnTheList) {
+TEST(EveryValue, OfAnEpisodeIsComputedAgainOrOnTheList) {
   const TamperedEpisode episode;
   int tried = 0;
   EXPECT_EQ(Accepted(episode, episode.folder(), "", verify::NotExaminedOfEpisode(), &tried), "");

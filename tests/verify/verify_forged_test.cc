@@ -204,6 +204,7 @@ TEST(StopBranches, AreCheckedWhenTheConfigDemandsThem) {
     TamperedRun run(
         {.overrides = {"smoothing.methods=[halfstep/sqp]", "smoothing.profile=limit",
                        "smoothing.optimizer.heights=true", "smoothing.optimizer.durations=true",
+                       "smoothing.optimizer.effort=1",
                        std::string("smoothing.stop_branches=") + demanded}});
     const auto verify = [&] { return VerifiedHere({.run = run.run().string()}); };
     Outcome outcome = verify();

@@ -1,0 +1,228 @@
+#include "experiments/checker/check_walk.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "experiments/checker/interval_proof.h"
+#include "experiments/checker/walk_statements.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
+#include "wpg/nth.h"
+
+namespace halfstep::checker {
+namespace {
+
+using Kind = TrajectoryFinding::Kind;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// An interval is not halved below this [s], nor where its bound is as near to its value.
+constexpr double kFinest = 1e-6, kMissed = 1e-9;
+constexpr std::int64_t kMostIntervals = 2'000'000;  // intervals
+constexpr double kRoundedShift = 1e-12;             // how much shorter a shift may be [s]
+
+// By family; of the last two there are no findings.
+constexpr std::array<Kind, verify::kNumFamilies> kKinds = {
+    Kind::kFloor,       Kind::kFootSpeed, Kind::kFootYawRate,  Kind::kZmp,
+    Kind::kReach,       Kind::kLimits,    Kind::kSpeed,        Kind::kSelfClearance,
+    Kind::kClearance,   Kind::kGround,    Kind::kNoStep,       Kind::kZmpRobot,
+    Kind::kTorque,      Kind::kFriction,  Kind::kAcceleration, Kind::kDoubleSupport,
+    Kind::kLandingSpeed};
+
+// Proves statements on the whole walk, all of those that are open on one interval at once.
+class WalkProof {
+ public:
+  WalkProof(const RobotModel& robot, const WalkMotion& motion, double crouch,
+            WalkStatements* statements, TrajectoryCheck* check)
+      : robot_(robot),
+        motion_(motion),
+        height_(Interval(robot.waist_height) - Interval(crouch)),
+        statements_(*statements),
+        check_(*check),
+        solvers_{LegSolver(robot.legs[0]), LegSolver(robot.legs[1])} {
+    for (const WalkStatement& statement : statements_.all()) {
+      findings_.push_back({.kind = Nth(kKinds, statement.family),
+                           .subject = statement.subject,
+                           .proved = true,
+                           .demanded = statement.demanded,
+                           .least = kInfinity});
+    }
+  }
+
+  void Prove(double from, double to) {
+    std::vector<size_t> open(findings_.size());
+    for (size_t i = 0; i < open.size(); ++i) open[i] = i;
+    Look(from, to, std::move(open));
+  }
+  void Finish() {
+    check_.findings.insert(check_.findings.end(), findings_.begin(), findings_.end());
+  }
+
+ private:
+  void Look(double from, double to, std::vector<size_t> open) {
+    ++check_.intervals;
+    WalkState state(robot_, solvers_, motion_, height_, from, to);
+    std::erase_if(open, [&](size_t i) { return IsSettled(i, from, to, &state); });
+    if (open.empty()) return;
+    const double middle = state.middle();
+    Look(from, middle, open);
+    Look(middle, to, std::move(open));
+  }
+
+  // Whether nothing more is asked of a statement on an interval.
+  bool IsSettled(size_t i, double from, double to, WalkState* state) {
+    TrajectoryFinding& finding = findings_[i];
+    if (!finding.proved) return true;
+    Kept kept{-kInfinity, std::numeric_limits<double>::quiet_NaN()};
+    try {
+      kept = statements_.Look(&statements_.all()[i], state);
+    } catch (const NotDefined&) {
+    }
+    if (kept.bound >= finding.demanded) {
+      if (kept.bound < finding.least) {
+        finding.least = kept.bound;
+        finding.at = state->middle();
+      }
+      return true;
+    }
+    finding.proved = !(kept.value < finding.demanded - kMissed || to - from < kFinest ||
+                       kept.value - kept.bound < kMissed || check_.intervals > kMostIntervals);
+    if (finding.proved) return false;
+    finding.least = kept.value;
+    finding.at = state->middle();
+    return true;
+  }
+
+  const RobotModel& robot_;
+  const WalkMotion& motion_;
+  Interval height_;
+  WalkStatements& statements_;
+  TrajectoryCheck& check_;
+  std::array<LegSolver, 2> solvers_;
+  std::vector<TrajectoryFinding> findings_;
+};
+
+// What is known without looking at intervals: at most one foot is in the air, and how long ZMPs
+// go from foot to foot.
+void AddTimes(const WalkMotion& motion, double demanded, TrajectoryCheck* check) {
+  const std::vector<WalkMotion::Flight>& flights = motion.flights();
+  for (size_t j = 0; j + 1 < flights.size(); ++j) {
+    const double apart = checker::Below(flights[j + 1].begin - flights[j].end);
+    check->findings.push_back({.kind = Kind::kContact,
+                               .subject = Formatted("steps %zu and %zu", j + 1, j + 2),
+                               .proved = apart > 0.0,
+                               .least = apart,
+                               .at = flights[j].end});
+  }
+  for (size_t i = 0; demanded != verify::kNotDemanded && i < motion.size(); ++i) {
+    const auto [start, shift] = motion.StartAndShift(i);
+    check->findings.push_back({.kind = Kind::kDoubleSupport,
+                               .subject = Formatted("half-step %zu", i + 1),
+                               .proved = shift.lo >= demanded - kRoundedShift,
+                               .demanded = demanded,
+                               .least = shift.lo,
+                               .at = start.lo});
+  }
+}
+
+ConvexBody FlatBody(const Eigen::Matrix2Xd& polygon) {
+  ConvexBody body;
+  body.vertices.setZero(3, polygon.cols());
+  body.vertices.topRows(2) = polygon;
+  body.center << polygon.rowwise().mean(), 0.0;
+  for (Eigen::Index i = 0; i < polygon.cols(); ++i) {
+    body.radius = std::max(body.radius, (body.vertices.col(i) - body.center).norm());
+  }
+  body.radius *= 1.0 + 1e-12;
+  return body;
+}
+
+// Each sole where it stands at some time, and each area, by its hull.
+void AddSteps(const WalkMotion& motion, const RobotModel& robot, const Scene& scene,
+              double demanded, TrajectoryCheck* check) {
+  const ConvexBody outline = FlatBody(robot.sole_outline);
+  std::vector<std::pair<double, size_t>> places = {{0.0, 0}, {0.0, 1}};  // time, side
+  for (const WalkMotion::Flight& flight : motion.flights()) {
+    places.emplace_back(std::min(flight.end, motion.end()), flight.side);
+  }
+  for (size_t k = 0; k < scene.no_step.size(); ++k) {
+    const ConvexBody area = FlatBody(scene.no_step[k]);
+    for (const auto& [t, side] : places) {
+      const WalkNumbers x = motion.On(t, t);
+      const Curve* const sole = &x[kSole + 4 * side];
+      FrameIn<Curve> X_WF =
+          TurnAbout(Eigen::Vector3d::UnitZ(), SinCosOf(sole[3])[0], SinCosOf(sole[3])[1]);
+      X_WF.p = {sole[0], sole[1], 0.0};
+      const VectorIn<Curve> moved = X_WF * VectorOf<Curve>(outline.center);
+      const Vector center = {moved[0].over[0], moved[1].over[0], 0.0};
+      const Vector at_rest = VectorOf(area.center);
+      Eigen::Vector3d direction{0, 0, 0};
+      const Kept kept = WalkStatements::Apart({area, FrameIn<Curve>(), at_rest},
+                                              {outline, X_WF, center}, demanded, &direction);
+      check->findings.push_back({.kind = Kind::kNoStep,
+                                 .subject = Formatted("sole at %.3f s - area %zu", t, k + 1),
+                                 .proved = kept.bound > 0.0 && kept.bound >= demanded,
+                                 .demanded = demanded,
+                                 .least = kept.bound,
+                                 .at = t});
+    }
+  }
+}
+
+void RefuseUnknown(const RobotModel& robot, const Scene& scene,
+                   const verify::CertificateText& certificate) {
+  const auto level = scene.ground->OnlyLevel();
+  if (!level || level->height != 0.0 || !scene.ground->Solids().empty()) {
+    throw InputError({"the scene has levels (valid here: a level floor at z = 0)"});
+  }
+  if (certificate.tube) {
+    throw InputError({"the certificate is of a tube (valid here: of the walk alone)"});
+  }
+  for (const Leg& leg : robot.legs) {
+    if (leg.closed_form()) continue;
+    throw InputError({"the robot's " + leg.offsets +
+                      " (valid here: hip axes that meet, and ankle axes that do)"});
+  }
+}
+
+}  // namespace
+
+TrajectoryCheck CheckWalk(const WalkTables& tables, const RobotModel& robot, const Scene& scene,
+                          const verify::CertificateText& certificate, double crouch,
+                          const std::function<bool(double done)>& progress) {
+  RefuseUnknown(robot, scene, certificate);
+  TrajectoryCheck check;
+  const WalkMotion motion(tables);
+  WalkStatements statements(robot, scene, certificate);
+  const auto demanded = [&](verify::Family family) { return Nth(certificate.demanded, family); };
+  AddTimes(motion, demanded(verify::kDoubleSupport), &check);
+  if (demanded(verify::kNoStep) != verify::kNotDemanded) {
+    AddSteps(motion, robot, scene, demanded(verify::kNoStep), &check);
+  }
+  WalkProof proof(robot, motion, crouch, &statements, &check);
+  std::vector<double> knots = motion.knots();
+  for (const double t : statements.WaypointTimes()) {
+    if (t > 0.0 && t < motion.end()) knots.push_back(t);
+  }
+  std::ranges::sort(knots);
+  for (size_t i = 0; i + 1 < knots.size() && !check.stopped; ++i) {
+    proof.Prove(knots[i], knots[i + 1]);
+    check.stopped = progress && !progress(knots[i + 1] / motion.end());
+  }
+  proof.Finish();
+  for (size_t f = 0; f < verify::kNumFamilies; ++f) {
+    const auto family = static_cast<verify::Family>(f);
+    const bool known = family != verify::kFoothold && family != verify::kOwn;
+    if (demanded(family) == verify::kNotDemanded ||
+        (known && std::ranges::count(check.findings, kKinds[f], &TrajectoryFinding::kind))) {
+      continue;
+    }
+    check.not_covered.push_back(
+        std::string(verify::kFamilyNames[f]) +
+        (known ? ": there is nothing that this is about" : ": is demanded, and not examined here"));
+  }
+  check.Sort();
+  return check;
+}
+
+}  // namespace halfstep::checker

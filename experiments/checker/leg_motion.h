@@ -1,0 +1,42 @@
+#pragma once
+
+#include <array>
+
+#include "experiments/checker/taylor.h"
+#include "wpg/robot/robot_model.h"
+
+namespace halfstep::checker {
+
+/// A leg in motion.
+struct LegPosture {
+  std::array<Curve, 6> q;                 ///< joint angles [rad]
+  std::array<FrameIn<Curve>, 6> X_WLink;  ///< frames of the links
+};
+
+/// Inverse kinematics of a leg whose hip axes meet in a point and whose ankle axes do, in the
+/// branch of its standing posture, of functions of time. Source: wpg/README.md, "Leg inverse
+/// kinematics", whose symbols these are.
+class LegSolver {
+ public:
+  /// Borrows the leg. Precondition: it has a closed form.
+  explicit LegSolver(const Leg& leg);
+
+  /// Frame of W where the sole was at q = 0, carried by the sole: X_WSole·X_BSole(0)⁻¹.
+  FrameIn<Curve> Carried(const FrameIn<Curve>& X_WSole) const { return X_WSole * X_SoleB_; }
+  /// Stretched length − hip–ankle distance [m].
+  Curve Reach(const FrameIn<Curve>& X_WB, const FrameIn<Curve>& carried) const;
+  /// For an upright waist and a sole that is turned by `yaw` from it and has carried the zero
+  /// posture there. Throws NotDefined where a singularity is not excluded.
+  LegPosture At(const FrameIn<Curve>& X_WB, const FrameIn<Curve>& carried) const;
+
+ private:
+  const Leg& leg_;
+  FrameIn<Curve> X_SoleB_;
+  Vector hip_, ankle_;                                     // seen from a point on the knee's axis
+  Interval along_, levers_;                                // a∥ − h∥, r_h r_a
+  Interval squares_;                                       // (a∥ − h∥)² + r_h² + r_a²
+  Interval sin_zero_, cos_zero_;                           // of ψ_0
+  double knee_ = 1.0, ankle_side_ = 1.0, hip_side_ = 1.0;  // signs of the branch
+};
+
+}  // namespace halfstep::checker

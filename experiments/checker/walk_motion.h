@@ -1,0 +1,66 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "experiments/checker/profiles.h"
+#include "experiments/checker/taylor.h"
+#include "experiments/verify/walk_text.h"
+
+namespace halfstep::checker {
+
+/// What the tables of a run say of a walk on a level floor.
+struct WalkTables {
+  std::vector<verify::FootstepRow> footsteps;   ///< both feet at the start, then those of the steps
+  std::vector<verify::HalfStepRow> half_steps;  ///< two for each footstep
+  std::vector<Interval> starts;                 ///< t_i of each [s]; their rows' are not read
+  verify::FormColumns planned;                  ///< form of half-steps whose row has none
+  Interval com_height;                          ///< z_c of the pendulum [m]
+};
+
+/// Where the numbers of a walk stand: CoM x, y and ZMP x, y [m], the waist's yaw [rad], and of each
+/// sole by Index(Side) x, y, z [m] and yaw [rad], in W.
+enum WalkNumber : size_t { kCom = 0, kZmp = 2, kYaw = 4, kSole = 5, kNumWalkNumbers = 13 };
+using WalkNumbers = std::array<Curve, kNumWalkNumbers>;  ///< as functions of time
+
+/// The walk's motion, f(t) = f_0(0) + Σ_i [f_i(clamp(t − t_i, 0, T_i)) − f_i(0)].
+/// Source: smoothing/README.md, "The homotopy"; wpg/README.md, "Half-step".
+class WalkMotion {
+ public:
+  /// A foot in the air, from lift-off to landing, times rounded outwards [s].
+  struct Flight {
+    size_t side = 0;                          ///< Index(Side)
+    double begin = 0.0, end = 0.0;            ///< closed
+    double moves_from = 0.0, moves_to = 0.0;  ///< the foot may move horizontally between
+  };
+
+  /// Throws InputError for tables that are of no walk.
+  explicit WalkMotion(const WalkTables& tables);
+
+  /// All numbers on [from, to].
+  WalkNumbers On(double from, double to) const;
+  double end() const { return steps_.back().end.hi; }              ///< from 0 [s]
+  const std::vector<Flight>& flights() const { return flights_; }  ///< in their order
+  /// Of a half-step: when it begins [s], how long its ZMP goes from foot to foot [s].
+  std::array<Interval, 2> StartAndShift(size_t half_step) const;
+  size_t size() const { return steps_.size(); }  ///< n
+  /// Between two neighbours everything is smooth and the same soles stand, but for rounding; from 0
+  /// to end() [s].
+  const std::vector<double>& knots() const { return knots_; }
+
+ private:
+  using Rest = std::array<Interval, kNumWalkNumbers>;
+  struct HalfStep {
+    Interval start, duration, end, shift;
+    size_t swing = 0;
+    Profile yaw, way, height;
+    Pendulum pendulum;
+  };
+
+  std::vector<HalfStep> steps_;
+  std::vector<Rest> rests_;  // where half-step i begins; last: where the walk ends
+  std::vector<Flight> flights_;
+  std::vector<double> knots_;
+};
+
+}  // namespace halfstep::checker

@@ -1,0 +1,179 @@
+#include "experiments/checker/walk_state.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "wpg/nth.h"
+#include "wpg/robot/gravity.h"
+
+namespace halfstep::checker {
+namespace {
+
+// An upright frame.
+FrameIn<Curve> Upright(const Curve& x, const Curve& y, const Curve& z, const Curve& yaw) {
+  const auto [s, c] = SinCosOf(yaw);
+  FrameIn<Curve> frame;
+  frame.R = {VectorIn<Curve>{c, -s, 0.0}, VectorIn<Curve>{s, c, 0.0}, frame.R[2]};
+  frame.p = {x, y, z};
+  return frame;
+}
+
+VectorIn<Rate> Second(const VectorIn<Curve>& x) {
+  return {x[0].Derivative<2, 1>(), x[1].Derivative<2, 1>(), x[2].Derivative<2, 1>()};
+}
+VectorIn<Rate> First(const VectorIn<Curve>& x) {
+  return {x[0].Derivative<0, 1>(), x[1].Derivative<0, 1>(), x[2].Derivative<0, 1>()};
+}
+
+using Corner = std::array<Interval, 2>;
+
+// The hull's corners in doubles, counter-clockwise (Andrew's chains).
+std::vector<size_t> HullHint(const std::vector<Corner>& corners) {
+  const auto at = [&](size_t i) {
+    return Eigen::Vector2d(corners[i][0].Middle(), corners[i][1].Middle());
+  };
+  std::vector<size_t> order(corners.size()), hull;
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::ranges::sort(order, [&](size_t i, size_t k) {
+    const Eigen::Vector2d a = at(i), b = at(k);
+    return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
+  });
+  for (int chain = 0; chain < 2; ++chain) {
+    const size_t begin = hull.size();
+    for (const size_t i : order) {
+      while (hull.size() >= begin + 2) {
+        const Eigen::Vector2d edge = at(hull.back()) - at(hull[hull.size() - 2]);
+        const Eigen::Vector2d next = at(i) - at(hull.back());
+        if (edge.x() * next.y() - edge.y() * next.x() > 1e-12) break;
+        hull.pop_back();
+      }
+      hull.push_back(i);
+    }
+    hull.pop_back();
+    std::ranges::reverse(order);
+  }
+  return hull;
+}
+
+}  // namespace
+
+WalkState::WalkState(const RobotModel& robot, const std::array<LegSolver, 2>& solvers,
+                     const WalkMotion& motion, const Interval& waist_height, double from, double to)
+    : robot_(robot),
+      solvers_(solvers),
+      middle_(0.5 * from + 0.5 * to),
+      h_(Interval(from, to).FarthestFrom(middle_)),
+      numbers_(motion.On(from, to)),
+      centers_(robot.bodies.size()) {
+  for (const WalkMotion::Flight& flight : motion.flights()) {
+    if (flight.begin <= middle_ && middle_ <= flight.end) flight_ = &flight;
+  }
+  for (size_t side = 0; side < 2; ++side) {
+    const size_t sole = kSole + 4 * side;
+    // A foot that stands has one place.
+    for (size_t k = sole; Stands(side) && k < sole + 4; ++k) numbers_[k] = numbers_[k].at[0];
+    carried_[side] = solvers[side].Carried(
+        Upright(numbers_[sole], numbers_[sole + 1], numbers_[sole + 2], numbers_[sole + 3]));
+  }
+  X_WB_ = Upright(numbers_[kCom], numbers_[kCom + 1], waist_height, numbers_[kYaw]);
+  const double ahead = robot.com_x_B;
+  X_WB_.p[0] = X_WB_.p[0] - ahead * X_WB_.R[0][0];
+  X_WB_.p[1] = X_WB_.p[1] - ahead * X_WB_.R[1][0];
+}
+
+const LegPosture& WalkState::leg(size_t side) {
+  if (!legs_[side]) legs_[side] = solvers_[side].At(X_WB_, carried_[side]);
+  return *legs_[side];
+}
+
+const FrameIn<Curve>& WalkState::FrameOfBody(const RobotBody& body) {
+  return body.leg < 0 ? X_WB_ : Nth(leg(static_cast<size_t>(body.leg)).X_WLink, body.link);
+}
+
+const Vector& WalkState::CenterOf(size_t body) {
+  if (!centers_[body]) {
+    const RobotBody& of = robot_.bodies[body];
+    const VectorIn<Curve> center = FrameOfBody(of) * VectorOf<Curve>(of.shape.center);
+    centers_[body] = {center[0].over[0], center[1].over[0], center[2].over[0]};
+  }
+  return *centers_[body];
+}
+
+SupportEdges WalkState::Support() const {
+  std::vector<Corner> corners;
+  for (size_t side = 0; side < 2; ++side) {
+    if (!Stands(side)) continue;
+    const size_t sole = kSole + 4 * side;
+    const auto [s, c] = SinCosOf(numbers_[sole + 3].at[0]);
+    for (const auto& [ahead, aside] :
+         {std::array{0.5, 0.5}, {-0.5, 0.5}, {-0.5, -0.5}, {0.5, -0.5}}) {
+      const Interval x = ahead * robot_.sole_size.x(), y = aside * robot_.sole_size.y();
+      corners.push_back(
+          {numbers_[sole].at[0] + c * x - s * y, numbers_[sole + 1].at[0] + s * x + c * y});
+    }
+  }
+  const std::vector<size_t> hull = HullHint(corners);
+  SupportEdges support;
+  for (size_t i = 0; i < hull.size(); ++i) {
+    const Corner &a = corners[hull[i]], &b = corners[hull[(i + 1) % hull.size()]];
+    const Interval x = b[0] - a[0], y = b[1] - a[1], length = Sqrt(Square(x) + Square(y));
+    if (!(length.lo > 0.0)) throw NotDefined();
+    const std::array<Interval, 2> n = {-y / length, x / length};
+    support.edges.push_back({n, n[0] * a[0] + n[1] * a[1]});
+  }
+  return support;
+}
+
+// ∫ x × (ẍ + gẑ) dm. Of x = r + ρ with ρ = R ξ, ∫ ρ ρ̈ᵀ dm = R Σ R̈ᵀ with Σ = ½tr(I)·1 − I.
+WalkState::Wrench WalkState::Push(const BodyMass& body, const FrameIn<Curve>& X_W,
+                                  const Eigen::Vector2d& reference) {
+  const VectorIn<Curve> center = X_W * VectorOf<Curve>(body.com);
+  Wrench push;
+  push.force = Second(center);
+  push.force[2] = push.force[2] + Rate(kGravity);
+  for (Rate& f : push.force) f = body.mass * f;
+  VectorIn<Rate> r = First(center);
+  r[0] = r[0] - Rate(reference.x());
+  r[1] = r[1] - Rate(reference.y());
+  push.moment = Cross(r, push.force);
+  const Eigen::Matrix3d& I = body.inertia;
+  FrameIn<Rate> square;  // Σ
+  const Interval half_trace = Interval(0.5) * (Interval(I(0, 0)) + I(1, 1) + I(2, 2));
+  for (size_t i = 0; i < 3; ++i) {
+    for (size_t k = 0; k < 3; ++k) {
+      const Interval entry =
+          -Interval(I(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)));
+      square.R[i][k] = i == k ? half_trace + entry : entry;
+    }
+  }
+  std::array<VectorIn<Rate>, 3> spread;  // rows of R Σ
+  for (size_t i = 0; i < 3; ++i) spread[i] = square.TurnedBack(First(X_W.R[i]));
+  for (size_t i = 0; i < 3; ++i) {
+    const size_t k = (i + 1) % 3, l = (i + 2) % 3;
+    push.moment[i] =
+        push.moment[i] + Dot(spread[k], Second(X_W.R[l])) - Dot(spread[l], Second(X_W.R[k]));
+  }
+  return push;
+}
+
+const WalkState::Dynamics& WalkState::dynamics() {
+  if (dynamics_) return *dynamics_;
+  leg(0), leg(1);
+  Dynamics all;
+  all.reference = {numbers_[kZmp].at[0].Middle(), numbers_[kZmp + 1].at[0].Middle()};
+  all.floor = Push(robot_.masses.waist, X_WB_, all.reference);
+  for (size_t side = 0; side < 2; ++side) {
+    for (size_t i = 0; i < 6; ++i) {
+      Wrench& link = all.links[side][i];
+      link = Push(robot_.masses.links[side][i], legs_[side]->X_WLink[i], all.reference);
+      all.floor.force = all.floor.force + link.force;
+      all.floor.moment = all.floor.moment + link.moment;
+    }
+  }
+  const Rate scale = Inverse(all.floor.force[2]);
+  if (!(all.floor.force[2].over[0].lo > 0.0)) throw NotDefined();
+  all.zmp = {-(all.floor.moment[1] * scale), all.floor.moment[0] * scale};
+  return dynamics_.emplace(all);
+}
+
+}  // namespace halfstep::checker

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiments/checker/check_trajectory.h"
+#include "experiments/checker/walk_state.h"
+#include "experiments/verify/certificate_text.h"
+#include "planner/scene/scene.h"
+
+namespace halfstep::checker {
+
+/// What is kept of a margin on an interval of time.
+struct Kept {
+  double bound = 0.0;  ///< at least that, at every instant
+  double value = 0.0;  ///< about that in the middle
+};
+
+/// One statement about a walk: of all instants, or where it counts.
+struct WalkStatement {
+  verify::Family family = verify::kFloor;  ///< by which margin
+  std::string subject = {};                ///< whose
+  double demanded = 0.0;                   ///< [unit of the family]
+  /// Side and joint; indices of a robot's bodies and of an obstacle; unused.
+  size_t a = 0, b = 0;
+  Eigen::Vector3d direction{0, 0, 0};  ///< along which two bodies were separated last; 0: none
+};
+
+/// Statements of a robot among obstacles, and how to look at them.
+class WalkStatements {
+ public:
+  /// Borrows all but the obstacles' bodies. Throws InputError for obstacles that are no solids.
+  WalkStatements(const RobotModel& robot, const Scene& scene,
+                 const verify::CertificateText& certificate);
+
+  /// When obstacles set off or turn to where they go next [s]: no interval may reach across.
+  std::vector<double> WaypointTimes() const;
+  std::vector<WalkStatement>& all() { return all_; }  ///< of families that count at instants
+  /// +∞ where a statement does not count. Throws NotDefined where nothing is known.
+  Kept Look(WalkStatement* statement, WalkState* state) const;
+  /// A convex body in motion, and bounds of where the centre of its sphere is.
+  struct Placed {
+    const ConvexBody& shape;    ///< in its own frame
+    const FrameIn<Curve>& X_W;  ///< that frame
+    const Vector& center;       ///< of its bounding sphere, in W [m]
+  };
+  /// How far two of them are apart along the best direction known [m].
+  static Kept Apart(const Placed& a, const Placed& b, double demanded, Eigen::Vector3d* direction);
+
+ private:
+  Kept OfSwingFoot(verify::Family family, const WalkState& state) const;
+  Kept OfJoint(const WalkStatement& statement, WalkState* state) const;
+  Kept OfBodies(WalkStatement* statement, WalkState* state) const;
+  Kept Friction(WalkState* state) const;
+  Kept Torque(const WalkStatement& statement, WalkState* state) const;
+
+  const RobotModel& robot_;
+  const Scene& scene_;
+  const verify::CertificateText& certificate_;
+  std::vector<ConvexBody> obstacles_;
+  std::vector<WalkStatement> all_;
+};
+
+}  // namespace halfstep::checker
