@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "experiments/run/crouched_forms.h"
+#include "experiments/run/obstacle_footprint.h"
 #include "experiments/run/stepping_over.h"
 #include "planner/swept/swept_volume_query.h"
 #include "wpg/files/suggestion.h"
@@ -43,6 +44,12 @@ bool IsNear(const Obstacle& obstacle, const std::vector<Refused>& refused, doubl
   return std::ranges::any_of(refused, [&](const Refused& one) {
     return seen.exteriorDistance(one.X_WS.Planar().position()) <= reach;
   });
+}
+
+// What no foot steps over, whatever its half-steps are.
+bool IsTooHigh(double top, const RobotModel& robot) {
+  constexpr double kMostOfLeg = 0.4;
+  return top >= kMostOfLeg * LegLengthOf(robot);
 }
 
 // An obstacle, and how many half-steps it refuses.
@@ -96,10 +103,10 @@ std::string NearestWords(const WatchedQuery& watched, const PlanRequest& request
                    watched.nearest(), begin);
 }
 
-std::string BlockingWords(const WatchedQuery& watched, const SweptVolumes& volumes,
-                          const Place& place, const MarginLimits& limits) {
+Hindrance FindBlocking(const WatchedQuery& watched, const SweptVolumes& volumes, const Place& place,
+                       const MarginLimits& limits) {
   const std::vector<Refused> refused = SomeOf(watched.refused().all(), kAsked);
-  if (refused.empty()) return "";
+  if (refused.empty()) return {};
   const double no_step = limits.demanded_of(MarginFamily::kNoStep);
   const RobotMeasures measures = MeasuresOf(place.robot);
   const Met most = MostMet(refused, volumes, place, [&](const Obstacle& obstacle) {
@@ -111,26 +118,34 @@ std::string BlockingWords(const WatchedQuery& watched, const SweptVolumes& volum
   const int on_area = areas.no_step.empty()
                           ? 0
                           : CountMet(refused, {volumes, place.robot.sole_outline, areas, no_step});
-  if (on_area > most.count) return Share(on_area, refused.size()) + " land on no-step areas";
-  if (blocking == nullptr) return "";
-  std::string text = Share(most.count, refused.size()) + " meet " + Quote(blocking->name);
+  if (on_area > most.count) return {Share(on_area, refused.size()) + " land on no-step areas"};
+  if (blocking == nullptr) return {};
+  Hindrance found{Share(most.count, refused.size()) + " meet " + Quote(blocking->name)};
+  if (!blocking->rests()) {
+    found.words += ", which counts everywhere that it ever is (`planner.moving`)";
+    return found;
+  }
   const std::string over =
       NoHalfStepOver(*blocking, place.robot, volumes, limits.demanded_of(MarginFamily::kClearance));
-  if (!over.empty()) return text + "; " + over;
-  if (!blocking->rests()) {
-    return text + ", which counts everywhere that it ever is (`planner.moving`)";
-  }
   const std::string hangs =
       HangsTooLow(*blocking, place.robot, limits.demanded_of(MarginFamily::kClearance));
-  if (!hangs.empty()) return text + "; " + hangs;
+  if (over.empty() && !hangs.empty()) {
+    found.words += "; " + hangs;
+    return found;
+  }
   const double top = BoundsOf(blocking->shape, blocking->X_WO).max().z();
   const double lift = volumes.set.prototype.via_height;
-  if (top >= lift) {
-    text += Formatted(
+  if (!over.empty()) {
+    found.words += "; " + over;
+  } else if (top >= lift) {
+    found.words += Formatted(
         ", which is %.3g m high where feet rise to %.3g m: a way leads past it or there is none",
         top, lift);
+  } else {
+    return found;
   }
-  return text;
+  if (!IsTooHigh(top, place.robot)) found.in_the_way = blocking;
+  return found;
 }
 
 std::string MovingWords(const WatchedTimes& watched, const SweptVolumes& volumes,
@@ -149,9 +164,8 @@ std::string MovingWords(const WatchedTimes& watched, const SweptVolumes& volumes
   return text + Formatted(", which rests from %.4g s on", waypoints.back().t);
 }
 
-std::string DetourWords(const PlanRequest& request, const PlanResult& plan,
-                        const SweptVolumes& volumes, const Place& place,
-                        const MarginLimits& limits) {
+Hindrance FindDetour(const PlanRequest& request, const PlanResult& plan,
+                     const SweptVolumes& volumes, const Place& place, const MarginLimits& limits) {
   constexpr double kDetour = 1.25;
   const Eigen::Vector2d begin =
       MidFeet(request.start[0].Planar(), request.start[1].Planar()).position();
@@ -165,20 +179,25 @@ std::string DetourWords(const PlanRequest& request, const PlanResult& plan,
     way += (next - at).norm();
     at = next;
   }
-  if (way < kDetour * (at - begin).norm()) return "";
+  if (way < kDetour * (at - begin).norm()) return {};
   // Narrower than what a leg might step over, were it to step as far as it is long.
   const double narrow = LegLengthOf(place.robot);
+  const Obstacle* higher = nullptr;  // than feet rise
   for (const Obstacle& obstacle : place.scene.obstacles) {
     if (!obstacle.rests()) continue;
     const Eigen::AlignedBox3d bounds = BoundsOf(obstacle.shape, obstacle.X_WO);
-    if (bounds.max().z() >= volumes.set.prototype.via_height) continue;
+    if (IsTooHigh(bounds.max().z(), place.robot)) continue;
     if (bounds.sizes().head<2>().minCoeff() > narrow) continue;
-    if (!LiesAcross(obstacle, begin, end)) continue;
+    if (!LiesAcross(FootprintOf(obstacle), begin, end)) continue;
+    if (bounds.max().z() >= volumes.set.prototype.via_height) {
+      if (higher == nullptr) higher = &obstacle;
+      continue;
+    }
     const std::string over = NoHalfStepOver(obstacle, place.robot, volumes,
                                             limits.demanded_of(MarginFamily::kClearance));
-    if (!over.empty()) return over;
+    if (!over.empty()) return {over, &obstacle};
   }
-  return "";
+  return {"", higher};
 }
 
 }  // namespace halfstep

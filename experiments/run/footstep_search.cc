@@ -78,6 +78,11 @@ void Say(const std::string& more, PlannedWalk* walk) {
   if (!more.empty()) walk->plan.sentence += "; " + more;
 }
 
+void Say(const Hindrance& found, PlannedWalk* walk) {
+  Say(found.words, walk);
+  if (found.in_the_way != nullptr) walk->in_the_way = found.in_the_way->name;
+}
+
 }  // namespace
 
 Place Resting(const Place& place) { return {place.robot, RestingPart(place.scene)}; }
@@ -131,7 +136,10 @@ void SearchFootsteps(const FootstepSearch& search, const Place& place, const Pla
   walk->proof_effort += request.proofs();
   if (walk->plan.status == PlanStatus::kSolved) {
     if (search.volumes != nullptr) {
-      walk->detour = DetourWords(request, walk->plan, *search.volumes, place, evaluator.limits());
+      const Hindrance detour =
+          FindDetour(request, walk->plan, *search.volumes, place, evaluator.limits());
+      walk->detour = detour.words;
+      if (detour.in_the_way != nullptr) walk->in_the_way = detour.in_the_way->name;
     }
     walk->config = WithFootsteps(config, request.start, walk->plan.footsteps, place);
     return;
@@ -141,7 +149,7 @@ void SearchFootsteps(const FootstepSearch& search, const Place& place, const Pla
     Say(NearestWords(watched, request), walk);
     if (search.volumes != nullptr) {
       const Place asked = walk->in_time ? Resting(place) : place;
-      Say(BlockingWords(watched, *search.volumes, asked, evaluator.limits()), walk);
+      Say(FindBlocking(watched, *search.volumes, asked, evaluator.limits()), walk);
       if (watched_times) Say(MovingWords(*watched_times, *search.volumes, place), walk);
     }
   }

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
 
+#include "experiments/run/crossing_fit.h"
 #include "experiments/run/half_step_table.h"
 #include "experiments/run/level_crossings.h"
-#include "smoothing/margins/margin_evaluator.h"
-#include "smoothing/proof/sampled_feasibility.h"
+#include "experiments/run/obstacle_crossings.h"
+#include "experiments/run/obstacle_footprint.h"
 #include "wpg/files/text.h"
 #include "wpg/nth.h"
 
@@ -16,140 +16,26 @@ namespace halfstep {
 namespace {
 
 constexpr double kClassWidth = 0.03;  // [m] differences of height that count as one
-constexpr double kWorst = 5.0;        // slacks below are as bad
-
-class Fitting {
- public:
-  Fitting(const ExperimentConfig& config, const Place& place, std::vector<LevelCrossing> crossings)
-      : evaluator_(place.robot, place.scene, config.smoothing.limits),
-        scratch_(evaluator_.MakeScratch()),
-        crossings_(std::move(crossings)) {}
-
-  const std::vector<LevelCrossing>& crossings() const { return crossings_; }
-  double Highest() const {
-    double highest = 0.0;
-    for (const LevelCrossing& crossing : crossings_) {
-      highest = std::max(highest, std::abs(crossing.rise()));
-    }
-    return highest;
-  }
-  void Drop(const std::function<bool(const LevelCrossing&)>& gone) {
-    std::erase_if(crossings_, gone);
-  }
-
-  struct OfClass {
-    double fit = 0.0;    // 1: a tenth of the crossings or more keep all; below 0: none does
-    Margin missed = {};  // of the best crossing, where none does
-    const LevelCrossing* of = nullptr;
-  };
-  // By class of difference of height. Where none keeps all, Nearest() tells how near one comes.
-  std::map<int, OfClass> Fit(const HalfStepConfig& form) {
-    std::map<int, int> all, kept;
-    for (const LevelCrossing& crossing : crossings_) ++all[ClassOf(crossing)];
-    std::map<int, OfClass> fits;
-    for (const LevelCrossing& crossing : crossings_) {
-      const int key = ClassOf(crossing);
-      double& fit = fits[key].fit;
-      if (fit < 1.0 && Keeps(form, crossing)) fit = std::min(1.0, 10.0 * ++kept[key] / all[key]);
-    }
-    return fits;
-  }
-  // How near the best of the first crossings of a class is to keeping all; `of` is null where the
-  // foot does not rise to the other level.
-  OfClass Nearest(const HalfStepConfig& form, int key) {
-    constexpr int kLooked = 16;
-    OfClass best{.fit = -kWorst};
-    int looked = 0;
-    for (const LevelCrossing& crossing : crossings_) {
-      if (ClassOf(crossing) != key || looked == kLooked) continue;
-      ++looked;
-      if (!Rises(form, crossing)) continue;
-      const auto [slack, margin] = SlackOf(form, crossing);
-      if (best.of == nullptr || slack > best.fit) best = {slack, margin, &crossing};
-    }
-    return best;
-  }
-  static int ClassOf(const LevelCrossing& crossing) {
-    return static_cast<int>(std::lround(crossing.rise() / kClassWidth));
-  }
-  std::string Describe(const Margin& margin) const { return evaluator_.Describe(margin); }
-
- private:
-  // Calls visit(walk, t) at instants of the half-steps down to the landing and up from it, until it
-  // says stop. A step in place moves down as it moves up, in reverse.
-  void Visit(const HalfStepConfig& form, const LevelCrossing& crossing,
-             const std::function<bool(const SuperposedWalk&, const LocalTime&)>& goes_on) {
-    std::array<Foothold, 2> feet;
-    Nth(feet, Index(crossing.support)) = crossing.X_WS;
-    Nth(feet, Index(Opposite(crossing.support))) = crossing.X_WF;
-    const HalfStepShape shape = ShapeOf(form);
-    const auto model = MotionModelOf(evaluator_.robot(), shape);
-    for (const Side swing : {crossing.support, Opposite(crossing.support)}) {
-      const HalfStepSequence sequence = MakeSequence(feet,
-                                                     {{.side = swing,
-                                                       .X_WF = Nth(feet, Index(swing)),
-                                                       .via_height = form.via_height,
-                                                       .duration = form.duration}},
-                                                     form.via_lateral, shape, model);
-      const SuperposedWalk walk(sequence, PlannedMotion(sequence));
-      constexpr int kInstants = 10;
-      for (int k = 0; k <= kInstants; ++k) {
-        if (!goes_on(walk, walk.Locate(form.duration * k / kInstants))) return;
-      }
-    }
-  }
-
-  static bool Rises(const HalfStepConfig& form, const LevelCrossing& crossing) {
-    return std::abs(crossing.rise()) < form.via_height;
-  }
-
-  bool Keeps(const HalfStepConfig& form, const LevelCrossing& crossing) {
-    bool keeps = Rises(form, crossing);
-    if (!keeps) return false;
-    Visit(form, crossing, [&](const SuperposedWalk& walk, const LocalTime& at) {
-      keeps = !evaluator_.FirstViolation(walk, at, &scratch_);
-      return keeps;
-    });
-    return keeps;
-  }
-
-  // The least slack of a crossing, and its margin.
-  std::pair<double, Margin> SlackOf(const HalfStepConfig& form, const LevelCrossing& crossing) {
-    std::pair<double, Margin> least = {1.0, {}};
-    Visit(form, crossing, [&](const SuperposedWalk& walk, const LocalTime& at) {
-      const MarginSet margins = evaluator_.At(walk, at, &scratch_);
-      const Margin& worst = WorstOf(margins, evaluator_.limits());
-      const double slack = std::max(-kWorst, evaluator_.limits().Slack(worst));
-      if (slack < least.first) least = {slack, worst};
-      return true;
-    });
-    return least;
-  }
-
-  MarginEvaluator evaluator_;
-  MarginEvaluator::Scratch scratch_;
-  std::vector<LevelCrossing> crossings_;
-};
 
 struct Fitted {
   HalfStepConfig form;
-  std::map<int, Fitting::OfClass> classes;
+  std::map<int, CrossingFit::OfKind> kinds;
   double score() const {
     double sum = 0.0;
-    for (const auto& [key, of] : classes) sum += of.fit;
+    for (const auto& [key, of] : kinds) sum += of.fit;
     return sum;
   }
   bool best() const {
-    return std::ranges::all_of(classes, [](const auto& fit) { return fit.second.fit >= 1.0; });
+    return std::ranges::all_of(kinds, [](const auto& fit) { return fit.second.fit >= 1.0; });
   }
 };
 
 // Whether a form crosses about all that any of them does.
 bool CrossesAll(const Fitted& fitted, const std::vector<Fitted>& all) {
-  return std::ranges::all_of(fitted.classes, [&](const auto& fit) {
+  return std::ranges::all_of(fitted.kinds, [&](const auto& fit) {
     return std::ranges::none_of(all, [&](const Fitted& other) {
-      return other.classes.at(fit.first).fit > 0.0 &&
-             fit.second.fit < 0.5 * other.classes.at(fit.first).fit;
+      return other.kinds.at(fit.first).fit > 0.0 &&
+             fit.second.fit < 0.5 * other.kinds.at(fit.first).fit;
     });
   });
 }
@@ -157,7 +43,7 @@ bool CrossesAll(const Fitted& fitted, const std::vector<Fitted>& all) {
 // The forms of a table as far as they have to be looked at: when so many fit as well as can be,
 // others do not come before them.
 std::vector<Fitted> FitTable(const std::vector<HalfStepConfig>& table, int wanted,
-                             Fitting* fitting) {
+                             CrossingFit* fitting) {
   std::vector<Fitted> all;
   for (const HalfStepConfig& form : table) {
     all.push_back({form, fitting->Fit(form)});
@@ -166,20 +52,19 @@ std::vector<Fitted> FitTable(const std::vector<HalfStepConfig>& table, int wante
   return all;
 }
 
-// What no crossing keeps is looked at closer. Gives the classes that are hopeless, from the
+// What no crossing keeps is looked at closer. Gives the kinds that are hopeless, from the
 // highest, and a sentence about each.
-std::vector<int> Hopeless(std::vector<Fitted>* all, Fitting* fitting,
+std::vector<int> Hopeless(std::vector<Fitted>* all, CrossingFit* fitting,
                           std::vector<std::string>* too_high) {
   constexpr double kHopeless = -0.5;  // slack of the best crossing
   std::vector<int> hopeless;
-  for (const auto& [key, own] : all->front().classes) {
-    if (std::ranges::any_of(*all,
-                            [k = key](const Fitted& f) { return f.classes.at(k).fit > 0.0; })) {
+  for (const auto& [key, own] : all->front().kinds) {
+    if (std::ranges::any_of(*all, [k = key](const Fitted& f) { return f.kinds.at(k).fit > 0.0; })) {
       continue;
     }
-    Fitting::OfClass best{.fit = -kWorst};
+    CrossingFit::OfKind best;
     for (Fitted& fitted : *all) {
-      Fitting::OfClass& of = fitted.classes[key];
+      CrossingFit::OfKind& of = fitted.kinds[key];
       of = fitting->Nearest(fitted.form, key);
       if (of.of != nullptr && (best.of == nullptr || of.fit > best.fit)) best = of;
     }
@@ -196,7 +81,7 @@ std::vector<int> Hopeless(std::vector<Fitted>* all, Fitting* fitting,
 }  // namespace
 
 HalfStepForms FormsFor(const ExperimentConfig& config, const Place& place, int wanted) {
-  Fitting fitting(config, place, DrawLevelCrossings(config, place));
+  CrossingFit fitting(config, place.robot, place.scene, DrawLevelCrossings(config, place));
   HalfStepForms found;
   std::vector<Fitted> all;
   while (!fitting.crossings().empty()) {
@@ -205,9 +90,7 @@ HalfStepForms FormsFor(const ExperimentConfig& config, const Place& place, int w
     // What is hopeless is left out, and the rest looked at anew with a lower via point.
     const std::vector<int> hopeless = Hopeless(&all, &fitting, &found.too_high);
     if (hopeless.empty()) break;
-    fitting.Drop([&](const LevelCrossing& crossing) {
-      return std::ranges::find(hopeless, Fitting::ClassOf(crossing)) != hopeless.end();
-    });
+    for (const int kind : hopeless) fitting.Drop(kind);
   }
   if (fitting.crossings().empty()) {
     found.forms = {config.half_step};
@@ -223,6 +106,37 @@ HalfStepForms FormsFor(const ExperimentConfig& config, const Place& place, int w
     if (own_first && Differences(fitted.form, config.half_step).empty()) continue;
     found.forms.push_back(fitted.form);
   }
+  return found;
+}
+
+FormOver FindFormOver(const ExperimentConfig& config, const RobotModel& robot,
+                      const Obstacle& obstacle, const std::vector<Foothold>& places) {
+  constexpr int kLooked = 4;  // crossings, for what is missed
+  Scene alone;
+  alone.obstacles = {obstacle};
+  CrossingFit fitting(config, robot, alone, DrawObstacleCrossings(config, robot, obstacle, places));
+  FormOver found;
+  if (fitting.crossings().empty()) return found;
+  std::vector<std::pair<double, HalfStepConfig>> fits;
+  CrossingFit::OfKind nearest;
+  for (const HalfStepConfig& form :
+       TableOverObstacle(config.half_step, FootprintOf(obstacle).top, SizeOf(robot))) {
+    // Longer ones have to pay.
+    const double fit = fitting.Share(form) * config.half_step.duration / form.duration;
+    if (fit > 0.0) fits.emplace_back(fit, form);
+    if (!fits.empty()) continue;
+    const CrossingFit::OfKind near = fitting.Nearest(form, 0, kLooked);
+    if (nearest.of == nullptr || (near.of != nullptr && near.fit > nearest.fit)) nearest = near;
+  }
+  std::ranges::stable_sort(fits, [](const auto& a, const auto& b) { return a.first > b.first; });
+  for (const auto& [fit, form] : fits) {
+    if (!fitting.Proves(form)) continue;
+    found.form = form;
+    found.landings = fitting.Landings(form);
+    break;
+  }
+  if (!found.form && nearest.of != nullptr) found.missed = fitting.Describe(nearest.missed);
+  found.effort = fitting.work().effort();
   return found;
 }
 

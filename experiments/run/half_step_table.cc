@@ -2,16 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "wpg/files/number_text.h"
 #include "wpg/robot/reference_leg.h"
 #include "wpg/robot/robot_measures.h"
 
 namespace halfstep {
+namespace {
 
-double SizeOf(const RobotModel& robot) {
-  return LegLengthOf(robot) / kLegOfHrp2;
-}
+// As one writes it: in steps of 1/steps.
+double Rounded(double value, double steps) { return std::round(steps * value) / steps; }
+
+}  // namespace
+
+double SizeOf(const RobotModel& robot) { return LegLengthOf(robot) / kLegOfHrp2; }
 
 std::vector<HalfStepConfig> HalfStepTable(const HalfStepConfig& own, double highest, double size) {
   std::vector<HalfStepConfig> table = {own};
@@ -38,6 +43,28 @@ std::vector<HalfStepConfig> HalfStepTable(const HalfStepConfig& own, double high
   }
   for (const double crouch : {0.0, 0.01}) {
     for (const double begin : {0.46, 0.5}) add(1.3, 0.02, crouch, 0.15, 0.6, begin, 0.85);
+  }
+  return table;
+}
+
+std::vector<HalfStepConfig> TableOverObstacle(const HalfStepConfig& own, double top, double size) {
+  std::vector<HalfStepConfig> table;
+  for (const double longer : {1.0, 1.3}) {
+    for (const double crouch : {0.0, 0.02, 0.04, 0.08}) {
+      for (const double above : {0.02, 0.05}) {
+        for (const auto& [delay, lift] : {std::pair(0.15, 0.6), std::pair(0.19, 1.0)}) {
+          HalfStepConfig form = own;
+          form.duration = Rounded(std::min(6.0, own.duration * longer), 10.0);
+          const double ratio = form.duration / own.duration;
+          form.zmp_shift = ratio == 1.0 ? own.zmp_shift : Rounded(own.zmp_shift * ratio, 1e4);
+          form.via_height = std::ceil(1e3 * (top + above * size) - 1e-6) / 1e3;
+          form.crouch = std::max(own.crouch, Rounded(crouch * size, 1e3));
+          form.foot_delay = delay;
+          form.lift_share = lift;
+          table.push_back(form);
+        }
+      }
+    }
   }
   return table;
 }

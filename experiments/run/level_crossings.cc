@@ -17,6 +17,7 @@
 namespace halfstep {
 namespace {
 
+constexpr double kKind = 0.03;     // [m] differences of height that count as one
 constexpr double kMostRise = 0.4;  // of the leg: no humanoid's step is higher
 
 using Edge = std::pair<Eigen::Vector2d, Eigen::Vector2d>;
@@ -49,7 +50,7 @@ Eigen::AlignedBox2d AreaOf(const ExperimentConfig& config, const Place& place) {
   return {box.min() - room, box.max() + room};
 }
 
-std::vector<LevelCrossing> DrawLevelCrossings(const ExperimentConfig& config, const Place& place) {
+std::vector<Crossing> DrawLevelCrossings(const ExperimentConfig& config, const Place& place) {
   constexpr int kWanted = 96, kTries = 4000, kLandings = 24;
   constexpr double kAny = std::numeric_limits<double>::infinity();
   const double leg = LegLengthOf(place.robot), farthest = 0.5 * leg;
@@ -58,7 +59,7 @@ std::vector<LevelCrossing> DrawLevelCrossings(const ExperimentConfig& config, co
   const std::vector<Foothold> landings = PlacesOf(config.step_set);
   const Eigen::AlignedBox2d area = AreaOf(config, place);
   const std::vector<Edge> edges = EdgesIn(area, *place.scene.ground);
-  std::vector<LevelCrossing> crossings;
+  std::vector<Crossing> crossings;
   if (edges.empty() || landings.empty()) return crossings;
   std::mt19937_64 random(static_cast<std::uint64_t>(config.seed));
   // Across the edges; when none is found so, along them.
@@ -79,7 +80,8 @@ std::vector<LevelCrossing> DrawLevelCrossings(const ExperimentConfig& config, co
         const Pose2 X_WF = X_WS * (support == Side::kLeft ? X_SF : X_SF.Mirrored()).Planar();
         const double landing = heights.At(X_WF, height, kMostRise * leg);
         if (std::isnan(landing) || landing == height) continue;
-        crossings.push_back({support, {X_WS, height}, {X_WF, landing}});
+        const int kind = static_cast<int>(std::lround((landing - height) / kKind));
+        crossings.push_back({support, {X_WS, height}, {X_WF, landing}, kind});
         break;
       }
     }

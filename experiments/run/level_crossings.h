@@ -4,16 +4,9 @@
 #include <vector>
 
 #include "experiments/config/experiment.h"
-#include "wpg/geometry/foothold.h"
+#include "experiments/run/crossing.h"
 
 namespace halfstep {
-
-/// A foot that stands, and where the other one lands, on another level.
-struct LevelCrossing {
-  Side support;         ///< the foot that stands
-  Foothold X_WS, X_WF;  ///< where it stands, and where the other one lands
-  double rise() const { return X_WF.height - X_WS.height; }  ///< [m], below 0 down
-};
 
 /// Where a config's walk may take place, seen from above in W [m]: its workspace, else 0.5 m around
 /// start and goal.
@@ -23,7 +16,7 @@ Eigen::AlignedBox2d AreaOf(const ExperimentConfig& config, const Place& place);
 /// landing of the config's step set on another level that is at most 0.4 of the leg's length above
 /// or below: 96 of them, fewer where 4000 tries find no more. The foot points across the edge, or
 /// along it where no sole that points across bears. Soles are borne as the config's `foothold`
-/// demands it.
-std::vector<LevelCrossing> DrawLevelCrossings(const ExperimentConfig& config, const Place& place);
+/// demands it. Differences of height within about 3 cm are one kind.
+std::vector<Crossing> DrawLevelCrossings(const ExperimentConfig& config, const Place& place);
 
 }  // namespace halfstep

@@ -1,7 +1,6 @@
 #include "experiments/run/planning.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "experiments/run/certificate_query.h"
 #include "experiments/run/crouched_forms.h"
@@ -11,18 +10,17 @@
 #include "experiments/run/half_step_table.h"
 #include "experiments/run/level_crossings.h"
 #include "experiments/run/narrow_surfaces.h"
+#include "experiments/run/plan_by_volumes.h"
 #include "experiments/run/plan_inputs.h"
+#include "experiments/run/plan_over.h"
 #include "planner/search/planners.h"
 #include "planner/swept/obstacle_places.h"
 #include "planner/swept/obstacle_times.h"
-#include "planner/swept/swept_volume_query.h"
 #include "smoothing/margins/demandable.h"
 #include "smoothing/margins/not_covered_by.h"
-#include "smoothing/margins/tube_shift.h"
 #include "wpg/check.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/suggestion.h"
-#include "wpg/files/text.h"
 #include "wpg/nth.h"
 
 namespace halfstep {
@@ -60,21 +58,6 @@ bool PlansInTime(const PlannerConfig& config, const Scene& scene, const Footstep
 bool ByCertificates(const ExperimentConfig& config, const Scene& scene, bool in_time) {
   if (!config.planner.free_by.empty()) return config.planner.free_by == "certificates";
   return HasLevels(*scene.ground) && (in_time || !AnythingMoves(scene));
-}
-
-// How far half-steps keep off obstacles [m]: each body as far as any of them may be from its place.
-double ClearanceOf(const ExperimentConfig& config, const RobotModel& robot) {
-  const MarginLimits limits = Demandable(config.smoothing.limits, robot);
-  return limits.demanded_of(MarginFamily::kClearance) + TubeShift(robot, limits.tube).body;
-}
-
-// Whether a foot starts where none may stand; then the walk says so.
-bool StartsOnNoStep(const Place& place, PlannedWalk* walk) {
-  const auto on_area = FootholdOnNoStep({walk->config, place.robot, place.scene, {}});
-  if (!on_area) return false;
-  walk->plan.status = PlanStatus::kStartBlocked;
-  walk->plan.sentence = *on_area;
-  return true;
 }
 
 // With half-steps of one form that are called free by their proofs. In time `resting` is the place
@@ -141,37 +124,7 @@ void PlanByForms(const Place& place, const PlanningHooks& hooks, PlannedWalk* wa
   }
 }
 
-// With half-steps that are called free by their swept volumes.
-void PlanByVolumes(const Place& place, const PlanningHooks& hooks, PlannedWalk* walk) {
-  walk->half_steps = BakeHalfSteps(place.robot, walk->config, *place.scene.ground, hooks);
-  if (!walk->half_steps.cached.volumes) {
-    walk->plan.status = PlanStatus::kInterrupted;
-    walk->plan.sentence = "interrupted while half-steps were baked";
-    return;
-  }
-  if (StartsOnNoStep(place, walk)) return;
-  const SweptVolumes& volumes = *walk->half_steps.cached.volumes;
-  const MarginLimits limits = Demandable(walk->config.smoothing.limits, place.robot);
-  const auto query_on = [&](const Scene& scene) {
-    return SweptVolumeQuery(
-        volumes, place.robot.sole_outline, scene, limits.demanded_of(MarginFamily::kNoStep),
-        std::numeric_limits<double>::infinity(), limits.demanded_of(MarginFamily::kFoothold));
-  };
-  if (!walk->in_time) {
-    const SweptVolumeQuery query = query_on(place.scene);
-    return SearchFootsteps({.set = volumes.set, .query = query, .volumes = &volumes}, place, hooks,
-                           walk);
-  }
-  const SweptVolumeQuery resting = query_on(RestingPart(place.scene)),
-                         always = query_on(MovingPart(place.scene));
-  const ObstacleTimes times(place.robot, MotionModelOf(place.robot, volumes.set.prototype.shape),
-                            volumes.set, place.scene, ClearanceOf(walk->config, place.robot),
-                            &always);
-  SearchFootsteps({.set = volumes.set, .query = resting, .times = &times, .volumes = &volumes},
-                  place, hooks, walk);
-}
-
-// The same. Where that finds nothing and something hangs so low that the standing robot does not
+// By volumes. Where that finds nothing and something hangs so low that the standing robot does not
 // pass, while a lower one might, it is searched with half-steps that are crouched all the way; that
 // first, where what hangs bars every way.
 void PlanUprightOrCrouched(const Place& place, const PlanningHooks& hooks, PlannedWalk* walk) {
@@ -246,10 +199,14 @@ PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
                    .not_covered = NotCoveredBy(place.robot, place.scene, config.smoothing.limits)};
   if (by_certificates) {
     PlanByForms(place, hooks, &walk);
-  } else if (walk.in_time || walk.on_levels) {
-    PlanByVolumes(place, hooks, &walk);
   } else {
-    PlanUprightOrCrouched(place, hooks, &walk);
+    walk.in_time || walk.on_levels ? PlanByVolumes(place, hooks, &walk)
+                                   : PlanUprightOrCrouched(place, hooks, &walk);
+    const bool may_prove = in_time || !AnythingMoves(place.scene);
+    const bool upright = walk.changed_half_step.empty();
+    if (!walk.in_the_way.empty() && upright && !walk.on_levels && may_prove) {
+      PlanOver(config, place, hooks, &walk);
+    }
   }
   return walk;
 }

@@ -27,13 +27,17 @@ struct PlannedWalk {
   std::vector<std::string> inputs = {};
   /// The set that was searched, with its swept volumes where these said what is free.
   BakedHalfSteps half_steps;
-  /// The keys of half_step that differ from the config's, since its own do not cross the ground.
+  /// An obstacle that the set's half-steps do not lead over: a way around it was found, or none.
+  std::string in_the_way = {};
+  /// The keys of half_step that differ from the config's, since its own do not cross the ground, or
+  /// an obstacle.
   std::string changed_half_step = {};
   /// Of a way that is longer than the straight one: what no half-step leads over; "": nothing.
   std::string detour = {};
-  double proof_effort = 0.0;  ///< of half-steps that were called free by proofs (Work::effort)
-  bool on_levels = false;     ///< whether the scene's ground has levels, so that heights are told
-  bool in_time = false;       ///< whether obstacles that move counted only where they are then
+  /// Of half-steps that were called free by proofs (Work::effort), and of searches before this one.
+  double proof_effort = 0.0;
+  bool on_levels = false;  ///< whether the scene's ground has levels, so that heights are told
+  bool in_time = false;    ///< whether obstacles that move counted only where they are then
   std::vector<NotCovered> not_covered = {};  ///< what no proof behind the plan speaks of
 };
 

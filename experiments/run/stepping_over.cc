@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "experiments/run/obstacle_footprint.h"
 #include "planner/swept/swept_volume_query.h"
 #include "wpg/elementary.h"
 #include "wpg/files/suggestion.h"
@@ -15,50 +16,6 @@
 
 namespace halfstep {
 namespace {
-
-// How far an obstacle reaches in a direction of W [m].
-double Reach(const Obstacle& obstacle, const Eigen::Vector3d& direction) {
-  const Eigen::Vector3d d_O = obstacle.X_WO.linear().transpose() * direction;
-  const double at = obstacle.X_WO.translation().dot(direction);
-  return at + std::visit(
-                  [&](const auto& shape) {
-                    if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, TriangleMesh>) {
-                      return (d_O.transpose() * shape.vertices).maxCoeff();
-                    } else {
-                      return Support(BodyOf(shape), d_O);
-                    }
-                  },
-                  obstacle.shape);
-}
-
-// The rectangle around an obstacle seen from above whose first edge is shortest.
-struct Footprint {
-  Eigen::Vector2d across, along;                          // unit vectors: over its narrower side
-  double near = 0.0, far = 0.0, left = 0.0, right = 0.0;  // its bounds on these [m]
-  double top = 0.0;                                       // [m]
-  double depth() const { return far - near; }
-};
-
-Footprint FootprintOf(const Obstacle& obstacle) {
-  constexpr int kDirections = 72;  // of half a turn
-  Footprint best;
-  double least = std::numeric_limits<double>::infinity();
-  for (int j = 0; j < kDirections; ++j) {
-    const double angle = std::numbers::pi * j / kDirections;
-    const Eigen::Vector2d across(Cos(angle), Sin(angle)), along(-across.y(), across.x());
-    const auto reach = [&](const Eigen::Vector2d& d) {
-      return Reach(obstacle, {d.x(), d.y(), 0.0});
-    };
-    const Footprint here{across,       along, -reach(-across), reach(across), -reach(-along),
-                         reach(along), 0.0};
-    if (here.depth() < least - 1e-9) {
-      least = here.depth();
-      best = here;
-    }
-  }
-  best.top = Reach(obstacle, Eigen::Vector3d::UnitZ());
-  return best;
-}
 
 // A half-step turned against the obstacle's narrower side.
 struct TurnedElement {
@@ -107,7 +64,7 @@ double SoleReach(const RobotModel& robot, const Foothold& X_WF, const Eigen::Vec
 // the one that goes ahead, then the one that follows.
 class StepsOver {
  public:
-  StepsOver(const Obstacle& obstacle, const Footprint& print, const RobotModel& robot,
+  StepsOver(const Obstacle& obstacle, const ObstacleFootprint& print, const RobotModel& robot,
             const SweptVolumes& volumes, double clearance)
       : print_(print),
         robot_(robot),
@@ -158,7 +115,7 @@ class StepsOver {
     }
   }
 
-  const Footprint& print_;
+  const ObstacleFootprint& print_;
   const RobotModel& robot_;
   const StepSet& set_;
   double clearance_;
@@ -188,7 +145,7 @@ std::string TooShort(const std::vector<TurnedElement>& half_steps, double depth,
 
 std::string NoHalfStepOver(const Obstacle& obstacle, const RobotModel& robot,
                            const SweptVolumes& volumes, double clearance) {
-  const Footprint print = FootprintOf(obstacle);
+  const ObstacleFootprint print = FootprintOf(obstacle);
   if (!obstacle.rests() || volumes.set.on_levels || !(print.top > 0.0)) return "";
   if (print.top >= volumes.set.prototype.via_height) return "";
   std::vector<TurnedElement> half_steps = TurnedHalfSteps(robot, volumes.set);
@@ -216,19 +173,6 @@ std::string NoHalfStepOver(const Obstacle& obstacle, const RobotModel& robot,
                   ": half-steps here lead over %.3g m of height at its depth of %.3g m (higher "
                   "ones: half_step.via_height_m)",
                   low, print.depth());
-}
-
-bool LiesAcross(const Obstacle& obstacle, const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
-  const Footprint print = FootprintOf(obstacle);
-  constexpr int kPoints = 200;
-  for (int j = 0; j <= kPoints; ++j) {
-    const Eigen::Vector2d p_W = from + (to - from) * j / kPoints;
-    const double x = p_W.dot(print.across), y = p_W.dot(print.along);
-    if (x >= print.near - 0.01 && x <= print.far + 0.01 && y >= print.left && y <= print.right) {
-      return true;
-    }
-  }
-  return false;
 }
 
 }  // namespace halfstep

@@ -15,8 +15,4 @@ namespace halfstep {
 std::string NoHalfStepOver(const Obstacle& obstacle, const RobotModel& robot,
                            const SweptVolumes& volumes, double clearance);
 
-/// Whether the straight line between two points of the floor crosses an obstacle seen from above,
-/// or rather the rectangle about it along its narrower side.
-bool LiesAcross(const Obstacle& obstacle, const Eigen::Vector2d& from, const Eigen::Vector2d& to);
-
 }  // namespace halfstep

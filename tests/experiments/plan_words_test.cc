@@ -85,6 +85,8 @@ TEST(PlanWords, AWayAroundIsToldWithWhatNoHalfStepLeadsOver) {
   const PlannedWalk past = PlanAmong(place, bar + "[0.5, 1.1, 0]}}]\n", "0.16", "-0.37");
   ASSERT_EQ(past.plan.status, PlanStatus::kSolved) << past.plan.sentence;
   EXPECT_EQ(past.detour, "");
+  EXPECT_EQ(past.changed_half_step, "");
+  EXPECT_EQ(past.proof_effort, 0.0);  // nothing else was tried
 }
 
 TEST(PlanWords, WhatMovesIsNamedWithTheTimeFromWhichItRests) {
