@@ -1,5 +1,6 @@
 #include "experiments/manual/manual_page.h"
 
+#include <algorithm>
 #include <string_view>
 
 #include "experiments/manual/option_words.h"
@@ -44,8 +45,11 @@ std::string Described(const std::string& description) {
   std::string text = ".PP\n" + Escaped(description.substr(0, gap)) + "\n";
   if (gap == std::string::npos) return text;
   text += ".PP\n.EX\n";
-  std::istringstream lines(description.substr(gap + 2));
-  for (std::string line; std::getline(lines, line);) text += Escaped(line) + "\n";
+  for (size_t begin = gap + 2; begin < description.size();) {
+    const size_t end = std::min(description.find('\n', begin), description.size());
+    text += Escaped(description.substr(begin, end - begin)) + "\n";
+    begin = end + 1;
+  }
   return text + ".EE\n";
 }
 

@@ -1,7 +1,7 @@
 #include "experiments/manual/option_words.h"
 
-#include <algorithm>
-#include <sstream>
+#include <functional>
+#include <string_view>
 
 namespace halfstep {
 namespace {
@@ -37,12 +37,14 @@ std::string ValueOf(const CLI::Option& option) {
 }
 
 std::vector<std::string> ChoicesOf(const CLI::Option& option) {
-  std::string text = Braced(option.get_type_name());
-  std::ranges::replace_if(
-      text, [](char c) { return c == '{' || c == '}' || c == ','; }, ' ');
-  std::istringstream words(text);
+  constexpr std::string_view kBetween = "{, }";
+  const std::string text = Braced(option.get_type_name());
   std::vector<std::string> choices;
-  for (std::string word; words >> word;) choices.push_back(word);
+  for (size_t begin = text.find_first_not_of(kBetween); begin != std::string::npos;) {
+    const size_t end = text.find_first_of(kBetween, begin);
+    choices.push_back(text.substr(begin, end - begin));
+    begin = text.find_first_not_of(kBetween, end);
+  }
   return choices;
 }
 
