@@ -27,7 +27,9 @@ VectorIn<Rate> First(const VectorIn<Curve>& x) {
 
 using Corner = std::array<Interval, 2>;
 
-// The hull's corners in doubles, counter-clockwise (Andrew's chains).
+// The hull's corners in doubles, counter-clockwise (Andrew's chains). They go along a direction that
+// sides of soles are hardly ever across: corners that are equally far along it, up to rounding, may
+// come in a wrong order, and the way around is not the hull's.
 std::vector<size_t> HullHint(const std::vector<Corner>& corners) {
   const auto at = [&](size_t i) {
     return Eigen::Vector2d(corners[i][0].Middle(), corners[i][1].Middle());
@@ -35,8 +37,8 @@ std::vector<size_t> HullHint(const std::vector<Corner>& corners) {
   std::vector<size_t> order(corners.size()), hull;
   std::iota(order.begin(), order.end(), size_t{0});
   std::ranges::sort(order, [&](size_t i, size_t k) {
-    const Eigen::Vector2d a = at(i), b = at(k);
-    return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
+    const Eigen::Vector2d along(0.7390851332151607, 0.6736120291832148);
+    return along.dot(at(i)) < along.dot(at(k));
   });
   for (int chain = 0; chain < 2; ++chain) {
     const size_t begin = hull.size();

@@ -113,6 +113,18 @@ TEST(CheckWalk, CertifiedWalksAreProved) {
   }
 }
 
+// Regression: corners of soles that are equally far ahead up to rounding were left out of the hull.
+TEST(CheckWalk, SolesSideBySideUpToRoundingAreOneSupport) {
+  const MadeRun run(R"(robot: wren
+scene: none
+footsteps:
+  - {foot: right, x_m: 0.060000000000000005, y_m: -0.0475}
+  - {foot: left, x_m: 0.06, y_m: 0.0475}
+)");
+  const TrajectoryCheck check = run.Check();
+  EXPECT_TRUE(check.proved()) << (Missed(check).empty() ? "" : Missed(check)[0]->subject);
+}
+
 TEST(Pendulum, GoesFromRestToRest) {
   for (const double ramp : {1.0, 0.7, 0.3}) {
     const Pendulum pendulum = Pendulum::Of(Interval(36.0), Interval(0.05), ramp);
