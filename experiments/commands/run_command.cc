@@ -133,6 +133,9 @@ ExitStatus Run(const RunCommand& command) {
   if (command.json) {
     std::cout << RunJson(run.experiment(), run.problem(), run.runs(), run.infeasible(), place);
   } else if (!command.quiet) {
+    if (const std::string changed = run.changed_half_step(); !changed.empty()) {
+      std::cout << "planned with half_step: {" << changed << "}, which the ground or an obstacle asks for\n";
+    }
     std::cout << RunTable(run.experiment(), run.problem(), run.runs(),
                           {place, "not_covered in certificate.json"});
     const std::filesystem::path report = folder.path() / "report.html";

@@ -87,6 +87,9 @@ class ExperimentRun {
   /// could not make feasible. Empty: nothing was to repair, or nothing was asked for.
   const std::vector<std::string>& repaired() const { return repaired_; }
 
+  /// As PlannedWalk::changed_half_step; "" where nothing was planned.
+  std::string changed_half_step() const { return planned_ ? planned_->changed_half_step : ""; }
+
   /// Writes every file of a run folder.
   void Write(RunFolder* folder) const;
 
