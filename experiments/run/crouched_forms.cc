@@ -6,6 +6,7 @@
 
 #include "experiments/run/certified_half_steps.h"
 #include "experiments/run/half_step_table.h"
+#include "experiments/run/level_crossings.h"
 #include "planner/collision/collision_world.h"
 #include "planner/search/step_set.h"
 #include "smoothing/margins/demandable.h"
@@ -48,7 +49,7 @@ class ColumnMap {
  public:
   ColumnMap(const ExperimentConfig& config, const Place& place, double top)
       : spacing_(0.05 * SizeOf(place.robot)) {
-    area_ = AreaOf(config, place);
+    area_ = AreaOf(config, place, 2.0);
     count_ = (area_.sizes() / spacing_).cast<int>() + Eigen::Vector2i::Ones();
     constexpr double kMost = 40000;
     if (const double cells = area_.sizes().prod() / (spacing_ * spacing_); cells > kMost) {
@@ -90,19 +91,6 @@ class ColumnMap {
   }
 
  private:
-  // As a planner looks for a way where the config does not say it: 2 m around start and goal.
-  static Eigen::AlignedBox2d AreaOf(const ExperimentConfig& config, const Place& place) {
-    if (const auto& w = config.planner.workspace; !w.empty()) {
-      return {Eigen::Vector2d(w[0], w[1]), Eigen::Vector2d(w[2], w[3])};
-    }
-    Eigen::AlignedBox2d box(config.goal.X_WG.position());
-    for (const Foothold& sole : StartOf(config, place.robot, *place.scene.ground)) {
-      box.extend(sole.Planar().position());
-    }
-    const Eigen::Vector2d room = Eigen::Vector2d::Constant(2.0);
-    return {box.min() - room, box.max() + room};
-  }
-
   Eigen::Vector2d PlaceOf(int cell) const {
     return area_.min() + spacing_ * Eigen::Vector2d(cell % count_.x(), cell / count_.x());
   }

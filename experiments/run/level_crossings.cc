@@ -38,7 +38,7 @@ std::vector<Edge> EdgesIn(const Eigen::AlignedBox2d& area, const Ground& ground)
 
 }  // namespace
 
-Eigen::AlignedBox2d AreaOf(const ExperimentConfig& config, const Place& place) {
+Eigen::AlignedBox2d AreaOf(const ExperimentConfig& config, const Place& place, double room) {
   if (const auto& w = config.planner.workspace; !w.empty()) {
     return {Eigen::Vector2d(w[0], w[1]), Eigen::Vector2d(w[2], w[3])};
   }
@@ -46,8 +46,8 @@ Eigen::AlignedBox2d AreaOf(const ExperimentConfig& config, const Place& place) {
   for (const Foothold& sole : StartOf(config, place.robot, *place.scene.ground)) {
     box.extend(sole.Planar().position());
   }
-  const Eigen::Vector2d room = Eigen::Vector2d::Constant(0.5);
-  return {box.min() - room, box.max() + room};
+  const Eigen::Vector2d around = Eigen::Vector2d::Constant(room);
+  return {box.min() - around, box.max() + around};
 }
 
 std::vector<Crossing> DrawLevelCrossings(const ExperimentConfig& config, const Place& place) {

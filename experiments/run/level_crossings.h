@@ -8,9 +8,9 @@
 
 namespace halfstep {
 
-/// Where a config's walk may take place, seen from above in W [m]: its workspace, else 0.5 m around
-/// start and goal.
-Eigen::AlignedBox2d AreaOf(const ExperimentConfig& config, const Place& place);
+/// Where a config's walk may take place, seen from above in W [m]: its workspace, else `room` around
+/// start and goal [m].
+Eigen::AlignedBox2d AreaOf(const ExperimentConfig& config, const Place& place, double room = 0.5);
 
 /// Places beside edges of the scene's surfaces in AreaOf, drawn from the config's seed, each with a
 /// landing of the config's step set on another level that is at most 0.4 of the leg's length above
