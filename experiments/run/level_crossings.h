@@ -8,8 +8,8 @@
 
 namespace halfstep {
 
-/// Where a config's walk may take place, seen from above in W [m]: its workspace, else `room` around
-/// start and goal [m].
+/// Where a config's walk may take place, seen from above in W [m]: its workspace, else `room`
+/// around start and goal [m].
 Eigen::AlignedBox2d AreaOf(const ExperimentConfig& config, const Place& place, double room = 0.5);
 
 /// Places beside edges of the scene's surfaces in AreaOf, drawn from the config's seed, each with a
