@@ -9,7 +9,7 @@ import { extentOf } from "./floor_marks.js";
 import { handWalk } from "./hand_walk.js";
 import { addLayerBoxes, layers, offerLayer } from "./layers.js";
 import { firstSentence, gravestInstant, infeasibleList, infeasibleOf } from "./infeasible.js";
-import { worstInstant } from "./least_margins.js";
+import { tellingInstant, worstInstant } from "./least_margins.js";
 import { leastTable } from "./least_table.js";
 import { methodCharts } from "./method_charts.js";
 import { middleOf } from "./pair_line.js";
@@ -242,7 +242,9 @@ function chooseCase(index) {
   timeline.t = 0;
   chooseWalks();
   look();
-  if (!applyAddress() && isInfeasible(drawn)) goToWorst();
+  if (applyAddress()) return;
+  if (isInfeasible(drawn)) goToWorst();
+  else timeline.seek(tellingInstant(walks[0], report.families)?.t ?? 0);
 }
 
 // The colours of what is drawn change with the system's.

@@ -15,6 +15,7 @@ function axisPlot(axis) {
   };
 }
 
+// One joint at a time, before all others in grey.
 function jointSpeeds(robot, limits) {
   const scale = limits.joint_speed_scale ?? 1;
   const joints = robot.legs.flatMap(({ joints: leg }, side) =>
@@ -22,25 +23,29 @@ function jointSpeeds(robot, limits) {
   );
   const ratio = (joint) => (walk, at) =>
     Math.abs(walk.value(`speed_${joint.name}_rad_s`, at)) / joint.limit;
-  const highest = (walk, at) => {
-    const ratios = joints.map((joint) => ratio(joint)(walk, at));
-    const i = ratios.indexOf(Math.max(...ratios));
-    return i < 0 ? "" : `highest: ${joints[i].name} ${(ratios[i] * joints[i].limit).toFixed(2)} of ` +
-      `${joints[i].limit.toFixed(2)} rad/s`;
+  const most = (joint, walk) => walk.column(`speed_${joint.name}_rad_s`)
+    .reduce((high, speed) => (Math.abs(speed) > high ? Math.abs(speed) : high), 0) / joint.limit;
+  const angle = (joint) => (walk, at) => {
+    const q = walk.value(`q_${joint.name}_rad`, at);
+    const speed = walk.value(`speed_${joint.name}_rad_s`, at);
+    return Number.isFinite(q) ? `${speed.toFixed(2)} of ±${joint.limit.toFixed(2)} rad/s, at ${q.toFixed(2)} rad ` +
+      `of ${joint.lower.toFixed(2)} … ${joint.upper.toFixed(2)}` : "does not reach";
   };
   return {
-    title: "Joint speeds / limits [–]",
+    title: "Joint speed / limit [–]",
     level: { value: 1, colour: palette.limit },
     least: [0, 1.05],
     curves: joints.map((joint) => ({
       label: joint.name,
-      colour: palette.faded(palette.feet[joint.side], 0.85),
+      colour: palette.faded(palette.grey, 0.45),
       value: ratio(joint),
-      group: joint.side === 0 ? "left leg" : "right leg",
       quiet: true,
     })),
-    keys: [["left leg", palette.left], ["right leg", palette.right]],
-    note: highest,
+    // `most`: its largest value in a walk.
+    picks: joints.map((joint) => ({
+      name: joint.name, colour: palette.feet[joint.side], value: ratio(joint), most: (walk) => most(joint, walk),
+      note: angle(joint),
+    })),
     onlyFirst: true,
   };
 }
@@ -48,8 +53,8 @@ function jointSpeeds(robot, limits) {
 function margins(families, demanded) {
   const shown = drawnFamilies(families).filter(({ name }) => (demanded[name] ?? null) !== null);
   return {
-    title: "Slack",
-    hint: "(margin − demanded) / scale; " +
+    title: "Slack, (margin − demanded) / scale [–]",
+    hint: "0: just what is demanded; " +
       shown.map(({ label, scale, unit }) => `${label}: 1 = ${scale} ${unit}`).join(", "),
     level: { value: 0, colour: palette.limit },
     fixed: [-0.6, 6],
