@@ -2,7 +2,8 @@
 import uPlot from "uplot";
 import { element, lineKey } from "./elements.js";
 import * as palette from "./palette.js";
-import { fileName, plotPng, plotSvg, save } from "./saving.js";
+import { figureSvg } from "./figure_svg.js";
+import { fileName, plotPng, save } from "./saving.js";
 
 const font = "11px system-ui, sans-serif";
 
@@ -95,14 +96,17 @@ class Plot {
     return button;
   }
 
+  // Of each series; of B's, and of those that are in the background, none.
+  names() {
+    return this.curveOf.map(({ curve, walk }) =>
+      (walk !== this.walks[0] || curve.quiet ? "" : curve.both ? this.picked.name : curve.label));
+  }
+
   saver(kind) {
     const button = element("button", { text: kind, className: "save", title: `save this plot as ${kind}` });
     button.addEventListener("click", async () => {
-      const shown = this.keys.filter(({ name }) => !this.hidden.has(name));
-      const keys = shown.map(({ name, button: key }) => [name, key.firstChild.style.background]);
-      if (this.picked) keys.push([this.picked.name, this.picked.colour]);
       save(kind === "PNG" ? await plotPng(this.u, this.spec.title)
-        : new Blob([plotSvg(this.u, this.spec.title, keys)], { type: "image/svg+xml" }),
+        : new Blob([figureSvg(this.u, this.names(), this.spec.title)], { type: "image/svg+xml" }),
            fileName(this.spec.title, kind.toLowerCase()));
     });
     return button;
