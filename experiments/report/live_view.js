@@ -77,6 +77,7 @@ export class LiveView {
       stage.scene.add(mesh);
       return [json.name, { name: json.name, mesh, shell, box: mesh.geometry.boundingBox }];
     }));
+    stage.scale = this.shapes.scale;
     stage.setGround(drawn.scene);
     this.areas = drawn.scene.no_step.map(areaMark);
     this.goal = new THREE.Group();

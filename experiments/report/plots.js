@@ -222,7 +222,10 @@ class Plot {
       const number = curve.value(walk, at);
       if (curve.text) value.textContent = Number.isFinite(number) ? curve.text(number) : "–";
     }
-    if (this.picked) this.note.textContent = this.picked.note(walk, at);
+    if (this.picked) {
+      this.note.textContent = this.picked.note(walk, at);
+      this.note.title = this.picked.hint;
+    }
     const x = this.u.valToPos(t, "x");
     this.cursor.hidden = !(x >= -1 && x <= this.u.over.clientWidth + 1);
     this.cursor.style.transform = `translateX(${x}px)`;
@@ -249,7 +252,7 @@ export class Plots {
       }
     };
     this.plots = specs.map((spec, i) => {
-      if (!this.kept.has(spec.title)) this.kept.set(spec.title, { hidden: new Set(), picked: null });
+      if (!this.kept.has(spec.title)) this.kept.set(spec.title, { hidden: new Set(spec.hidden), picked: null });
       const last = i === specs.length - 1;
       return new Plot(this.parent, spec, walks, last, this.kept.get(spec.title), this.onSeek, zoom);
     });

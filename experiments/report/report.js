@@ -97,7 +97,7 @@ function goTo({ t, pair }) {
   const [x, y, z] = middleOf(pair);
   byId("camera").value = "feet";
   byId("follow").checked = false;
-  stage.look("feet", [x, y], 1.15, z);
+  stage.look("feet", [x, y, z], 1.15, 0);
   redraw();
 }
 
@@ -114,7 +114,7 @@ function look() {
   } else if (byId("follow").checked) {
     stage.look(byId("camera").value, centreNow(walks[0]), 2.75);
   } else {
-    stage.look(byId("camera").value, middle, 2.3 + 0.62 * extent);
+    stage.look(byId("camera").value, middle, 2.3, 0.68, 0.62 * extent);
   }
   redraw();
 }
@@ -174,7 +174,7 @@ function chooseWalks() {
   byId("tag-b").hidden = walks.length < 2;
   if (!a) return;
   stageWalks();
-  plots.show(plotList(report.robots[current.robot], a.certificate, report.families), walks,
+  plots.show(plotList(report.robots[current.robot], a, report.families), walks,
              squeezed ? "time [s], of the longer walk squeezed" : "time [s]");
   infeasibleList(byId("infeasible"), current, walks[0], goTo);
   leastTable(byId("least"), walks[0], report.families, goTo);
@@ -231,6 +231,7 @@ function chooseCase(index) {
   if (drawn.length === 0) return;
   if (stage) {
     stage.setScene(report.scenes[current.scene]);
+    stage.scale = shapes[current.robot].scale;
     stage.prints = footprints(current.footsteps, report.robots[current.robot].sole);
     stage.place.add(stage.prints);
   }

@@ -15,20 +15,39 @@ export function meshGeometry({ vertices, triangles }) {
 
 function colourOf(body) {
   if (body.leg >= 0) return body.link === 5 ? palette.feet[body.leg] : palette.legs[body.leg];
-  if (/head/i.test(body.name)) return palette.head;
-  return /arm|hand|elbow|shoulder/i.test(body.name) ? palette.arm : palette.trunk;
+  if (/head|neck/i.test(body.name)) return palette.head;
+  return /arm|hand|elbow|shoulder|wrist/i.test(body.name) ? palette.arm : palette.trunk;
+}
+
+// What is highest of the bodies over the waist, in the middle; null where nothing is.
+function headOf(bodies) {
+  let highest = null;
+  for (const body of bodies.filter(({ leg }) => leg < 0)) {
+    body.geometry.computeBoundingBox();
+    const { min, max } = body.geometry.boundingBox;
+    const central = Math.abs(min.y + max.y) < 0.5 * (max.y - min.y);
+    if (central && max.z > (highest?.geometry.boundingBox.max.z ?? 0)) highest = body;
+  }
+  return highest;
+}
+
+// Upright, with straight legs [m].
+function heightOf(json, bodies) {
+  const tops = bodies.filter(({ leg }) => leg < 0).map(({ geometry }) => geometry.boundingBox.max.z);
+  return Math.max(0, ...tops) - Math.min(...json.legs.map(({ sole }) => sole[11]));
 }
 
 // What is drawn about a robot's bodies, each {leg, link, geometry, colour}; a body of which another
 // shape is drawn has `replaced`.
 function looksOf(json, bodies) {
+  const head = headOf(bodies);
   const looks = (json.rods ?? []).map((rod) => ({
     leg: rod.leg, link: rod.link, geometry: rodGeometry(rod),
     colour: rod.leg < 0 ? palette.joint : palette.legs[rod.leg],
   }));
   for (const body of bodies) {
     const { leg, link } = body;
-    if (leg < 0 && /head/i.test(body.name)) looks.push({ leg, link, geometry: visorOf(body), colour: palette.visor });
+    if (body === head) looks.push({ leg, link, geometry: visorOf(body), colour: palette.visor });
     if (link !== 5 || bodies.filter((one) => one.leg === leg && one.link === 5).length > 1) continue;
     const drawn = shoeOf(body, json.legs[leg], json.sole);
     if (!drawn) continue;
@@ -58,6 +77,8 @@ export class RobotShapes {
       return { ...body, geometry, edges: new THREE.EdgesGeometry(geometry, 32) };
     });
     this.looks = looksOf(json, this.bodies);
+    /** Its height over that of HRP-2: cameras stand nearer to a smaller robot. */
+    this.scale = heightOf(json, this.bodies) / 1.56;
     this.joints = json.legs.map(({ joints: leg }) =>
       leg.map((joint) => ({
         ...joint,

@@ -1,7 +1,9 @@
 // Which curves each plot has. A curve: label, colour, value(walk, place) and how to write it.
+import { leastMargins } from "./least_margins.js";
 import { drawnFamilies } from "./margin_families.js";
 import * as palette from "./palette.js";
 
+const mostSlacks = 4;
 const metres = (v) => `${v.toFixed(3)} m`;
 const of = (column) => (walk, at) => walk.value(column, at);
 
@@ -28,8 +30,7 @@ function jointSpeeds(robot, limits) {
   const angle = (joint) => (walk, at) => {
     const q = walk.value(`q_${joint.name}_rad`, at);
     const speed = walk.value(`speed_${joint.name}_rad_s`, at);
-    return Number.isFinite(q) ? `${speed.toFixed(2)} of ±${joint.limit.toFixed(2)} rad/s, at ${q.toFixed(2)} rad ` +
-      `of ${joint.lower.toFixed(2)} … ${joint.upper.toFixed(2)}` : "does not reach";
+    return Number.isFinite(q) ? `${speed.toFixed(2)} rad/s at ${q.toFixed(2)} rad` : "does not reach";
   };
   return {
     title: "Joint speed / limit [–]",
@@ -45,19 +46,25 @@ function jointSpeeds(robot, limits) {
     picks: joints.map((joint) => ({
       name: joint.name, colour: palette.feet[joint.side], value: ratio(joint), most: (walk) => most(joint, walk),
       note: angle(joint),
+      hint: `at most ±${joint.limit.toFixed(2)} rad/s, ${joint.lower.toFixed(2)} … ${joint.upper.toFixed(2)} rad`,
     })),
     onlyFirst: true,
   };
 }
 
-function margins(families, demanded) {
+// At first the four families with the least slack of the walk; the others wait in their keys.
+function margins(families, walk) {
+  const { demanded } = walk.certificate;
   const shown = drawnFamilies(families).filter(({ name }) => (demanded[name] ?? null) !== null);
+  const least = leastMargins(walk, families).map(({ family }) => family).filter((name) =>
+    shown.some((family) => family.name === name)).slice(0, mostSlacks);
   return {
     title: "Slack, (margin − demanded) / scale [–]",
     hint: "0: just what is demanded; " +
       shown.map(({ label, scale, unit }) => `${label}: 1 = ${scale} ${unit}`).join(", "),
     level: { value: 0, colour: palette.limit },
     fixed: [-0.6, 6],
+    hidden: shown.filter(({ name }) => !least.includes(name)).map(({ short }) => short),
     curves: shown.map(({ name, column, short, colour, scale }) => ({
       label: short,
       colour,
@@ -67,8 +74,8 @@ function margins(families, demanded) {
   };
 }
 
-/** All plots for a robot and the demands of a certificate. */
-export function plotList(robot, certificate, families) {
+/** All plots for a robot and a walk's demands. */
+export function plotList(robot, walk, families) {
   return [
     axisPlot("x"),
     axisPlot("y"),
@@ -79,7 +86,7 @@ export function plotList(robot, certificate, families) {
         { label: "right", colour: palette.right, value: of("right_foot_z_m"), text: metres },
       ],
     },
-    jointSpeeds(robot, certificate.limits),
-    margins(families, certificate.demanded),
+    jointSpeeds(robot, walk.certificate.limits),
+    margins(families, walk),
   ];
 }

@@ -130,8 +130,8 @@ export class ZmpMap {
       write(left - 6, at + 4, y, { "text-anchor": "end" });
     }
     made(this.svg, "rect", { x: left, y: top, width: right - left, height: bottom - top, fill: "none", stroke: palette.theme.ticks });
-    write((left + right) / 2, bottom + 29, "x, forward [m]", { "text-anchor": "middle" });
-    write(0, 0, "y, left [m]", { "text-anchor": "middle", transform: `translate(10 ${(top + bottom) / 2}) rotate(-90)` });
+    write((left + right) / 2, bottom + 29, "x [m]", { "text-anchor": "middle" });
+    write(0, 0, "y [m]", { "text-anchor": "middle", transform: `translate(10 ${(top + bottom) / 2}) rotate(-90)` });
   }
 
   // Each footprint, with its name at the edge that points outwards.
