@@ -47,6 +47,7 @@ let hand = null; // the walk by hand
 let walks = []; // A, and B when there is one
 let actors = [];
 let pending = false;
+let filming = false; // frames of a film are drawn at once, and not again
 
 // What the camera follows: the waist, or the middle between the feet; and the ground's height there.
 function centreNow(walk) {
@@ -67,7 +68,7 @@ function draw() {
 }
 
 function redraw() {
-  if (!stage || pending || actors.length === 0) return;
+  if (!stage || pending || filming || actors.length === 0) return;
   pending = true;
   requestAnimationFrame(() => {
     pending = false;
@@ -265,7 +266,13 @@ function changeTheme() {
 const filmed = filmedPage({
   hasView: () => stage !== null && actors.length > 0,
   walks: () => walks,
-  timeline, draw, applyAddress,
+  timeline, applyAddress,
+  draw(t) {
+    filming = true;
+    timeline.seek(t);
+    filming = false;
+    draw();
+  },
   drawnWalks: () => current.walks.filter((walk) => walk.drawn),
 });
 

@@ -95,7 +95,7 @@ std::optional<std::string> WalkVideo(std::string_view page, const VideoOptions& 
   try {
     HeadlessBrowser browser(*program, folder.path(), options.width, options.height,
                             std::move(stop));
-    browser.Load(file);
+    browser.Load(file, "?film");
     const json asked = {{"seconds", options.seconds ? json(*options.seconds) : json(nullptr)},
                         {"show", options.show},
                         {"rate", options.rate}};
