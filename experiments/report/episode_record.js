@@ -1,4 +1,5 @@
 // What was told of an episode, by messages of protocol 2, and what of it was true at a time.
+import { readable } from "./words.js";
 
 // The last element of a list in the order of `key` that is not after t.
 function lastUntil(list, key, t) {
@@ -142,6 +143,6 @@ const words = {
  */
 export function inWords(event, before) {
   if (event.event === "measured" || event.event === "begins") return null;
-  const text = words[event.event]?.(event, before) ?? `${event.event}: ${event.text}`;
+  const text = readable(words[event.event]?.(event, before) ?? `${event.event}: ${event.text}`);
   return event.t_s === null ? text : `${event.t_s.toFixed(2)} s ${text}`;
 }
