@@ -6,7 +6,7 @@ const width = 252; // [pt]
 const height = 112;
 const letters = 7;
 const between = 7.6; // names at least [pt]
-const perLetter = 3.9; // how wide they are, about [pt]
+const perLetter = 4.8; // how wide they are, about [pt]
 const dashes = ["", "4 1.6", "1.2 1.2", "5 1.4 1.2 1.4"];
 const escaped = (text) => String(text).replace(/[&<>"]/g, (c) => `&#${c.charCodeAt(0)};`);
 // Colours with a hexadecimal opacity: not all readers of SVG know them.

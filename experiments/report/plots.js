@@ -106,7 +106,7 @@ class Plot {
     const button = element("button", { text: kind, className: "save", title: `save this plot as ${kind}` });
     button.addEventListener("click", async () => {
       save(kind === "PNG" ? await plotPng(this.u, this.spec.title)
-        : new Blob([figureSvg(this.u, this.names(), this.spec.title)], { type: "image/svg+xml" }),
+        : new Blob([figureSvg(this.u, this.names(), this.spec.axis ?? this.spec.title)], { type: "image/svg+xml" }),
            fileName(this.spec.title, kind.toLowerCase()));
     });
     return button;

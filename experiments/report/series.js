@@ -60,6 +60,7 @@ function margins(families, walk) {
     shown.some((family) => family.name === name)).slice(0, mostSlacks);
   return {
     title: "Slack, (margin − demanded) / scale [–]",
+    axis: "slack [–]",
     hint: "0: just what is demanded; " +
       shown.map(({ label, scale, unit }) => `${label}: 1 = ${scale} ${unit}`).join(", "),
     level: { value: 0, colour: palette.limit },
