@@ -45,7 +45,7 @@ export function figureSvg(u, names, yLabel, xLabel = "time [s]") {
     colour: typeof series.stroke === "function" ? series.stroke(u, i + 1) : series.stroke,
   })).filter(({ series }) => series.show);
   const longest = Math.max(0, ...shown.map(({ name }) => name.length));
-  const [left, right, top, bottom] = [34, width - 3 - perLetter * longest, 4, height - 24];
+  const [left, right, top, bottom] = [34, width - 7 - perLetter * longest, 4, height - 24];
   const { x, y } = u.scales;
   const place = (vx, vy) => [
     left + ((vx - x.min) / (x.max - x.min)) * (right - left),

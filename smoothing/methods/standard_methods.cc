@@ -134,15 +134,19 @@ void RequestGiven(Fields& fields, const MethodOptions&) {
 
 // When a solver suits, for `halfstep list methods`.
 std::string SolverMeaning(const std::string& solver) {
-  if (solver == "halfstep/sqp") return "our SQP: the shortest walks here; take it first";
+  if (solver == "halfstep/sqp")
+    return "our SQP: the shortest walks of the shipped configs; take it first";
   if (solver == "halfstep/barrier")
     return "our barrier: stays inside the limits, walks a little longer";
   if (solver == "ipopt") return "Ipopt, interior point: a second opinion on halfstep/sqp";
   if (solver == "ceres/auglag") return "Ceres, augmented Lagrangian: to compare solvers";
-  if (solver == "nlopt/slsqp") return "NLopt's dense SQP: a second opinion, on short walks (dense)";
-  if (solver == "nlopt/cobyla" || solver == "nlopt/isres" || solver.ends_with("bobyqa")) {
-    return "NLopt, without derivatives: for costs or margins of one's own, a few variables";
-  }
+  if (solver == "nlopt/slsqp") return "NLopt's dense SQP: a second opinion, on short walks";
+  if (solver == "nlopt/bobyqa")
+    return "NLopt, within bounds alone: refuses programs with rows, as these";
+  if (solver == "nlopt/cobyla")
+    return "NLopt, without derivatives: for costs of one's own, few variables";
+  if (solver == "nlopt/isres")
+    return "NLopt, global and random: for few variables, with much effort";
   if (solver.starts_with("nlopt/")) return "NLopt: to compare solvers";
   return "the program by this solver of one's own";
 }
