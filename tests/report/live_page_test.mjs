@@ -103,7 +103,7 @@ const labels = (browser) =>
 // The number of a walk after walk `before` that took over with other footsteps, when the log has one.
 async function walkWithOtherFootsteps(browser, before) {
   const lines = await browser.run("return [...document.querySelectorAll('#log li')].map((line) => line.title)");
-  const numbers = lines.map((line) => /walk (\d+) taken over.*: changed/.exec(line)?.[1]).filter(Boolean);
+  const numbers = lines.map((line) => /walk (\d+) taken over.*: another way/.exec(line)?.[1]).filter(Boolean);
   return numbers.map(Number).find((number) => number > before);
 }
 
