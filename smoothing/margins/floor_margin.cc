@@ -1,9 +1,11 @@
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "smoothing/margins/family_class.h"
 #include "smoothing/margins/foot_solids.h"
 #include "wpg/elementary.h"
+#include "wpg/rounded.h"
 
 namespace halfstep {
 namespace {
@@ -84,13 +86,16 @@ class FloorMargin final : public WholeFamily {
   void AddBounds(const MarginInterval& interval, TightestStatement* tightest) const override {
     const Instant& mid = interval.mid;
     const IntervalMotion& motion = interval.motion;
-    const double rounding = mid.rounding();
     if (!IsWatched(mid)) {
-      tightest->Add(Of(kUnlimited, -1), rounding);
+      tightest->Add(Of(kUnlimited, -1), 0.0);
       tightest->count = count();
       return;
     }
     const int foot = FootIndex(mid.swing());
+    const WalkState& x = motion.jet.value;
+    const double rounding =
+        32.0 * kRoundoff *
+        (std::abs(x[foot]) + std::abs(x[foot + 1]) + std::abs(x[foot + 2]) + place_.solids.reach());
     const double lifted = motion.Change(foot + 2);
     tightest->Add(OfFloor(mid), lifted + rounding);
     if (place_.solids.empty()) return;
@@ -102,7 +107,7 @@ class FloorMargin final : public WholeFamily {
         interval.with_margins ? CapOf(mid.limits()) : std::max(mid.demanded(family()), 0.0) + kMore;
     std::vector<SolidGap> gaps;
     place_.solids.Near(SoleOf(mid), cap + moved + lifted, &gaps);
-    tightest->Add(Of(cap, Index(mid.swing())), rounding);
+    tightest->Add(Of(cap, Index(mid.swing())), 0.0);
     for (const SolidGap& gap : gaps) {
       const Margin margin = OfSolid(mid, gap);
       tightest->Add(margin, margin.value - gap.LeastAfter(moved, lifted) + rounding);

@@ -43,7 +43,9 @@ class FootSpeedMargin final : public SwingFootFamily<FootSpeedMargin> {
   }
   double Change(const MarginInterval& interval) const {
     const IntervalMotion& motion = interval.motion;
-    return motion.half_width * motion.second.segment<3>(FootIndex(interval.mid.swing())).norm();
+    const int foot = FootIndex(interval.mid.swing());
+    return motion.half_width * motion.second.segment<3>(foot).norm() +
+           motion.off.first.segment<3>(foot).sum();
   }
 
  private:

@@ -5,10 +5,15 @@
 #include <limits>
 
 #include "wpg/nth.h"
+#include "wpg/rounded.h"
 
 namespace halfstep {
 
-void TightestStatement::Add(const Margin& added, double change) {
+void TightestStatement::Add(const Margin& added, double given) {
+  // Sums and products of less than a thousand numbers ≥ 0, and the margin's own difference.
+  const double change = std::isfinite(added.value) ? given * (1.0 + 1024.0 * kRoundoff) +
+                                                         8.0 * kRoundoff * std::abs(added.value)
+                                                   : given;
   const double spare = added.value - change;
   // What is not a number stays, and meets no demand.
   if (count++ == 0 || std::isnan(spare) || spare < margin.value - bound) {
@@ -55,6 +60,12 @@ std::string MarginStatements::BodyName(const RobotModel& robot, int body) {
 std::vector<Side> MarginStatements::FootOf(const RobotModel& robot, int body) {
   if (body < 0 || !IsOnFoot(Nth(robot.bodies, body))) return {};
   return {static_cast<Side>(Nth(robot.bodies, body).leg)};
+}
+
+double MarginStatements::OfDistances(const WalkState& x) {
+  constexpr double kAround = 8.0;  // [m] bodies of robots of 4 m, and what is near them
+  return 128.0 * kRoundoff *
+         (std::abs(x[kComX]) + std::abs(x[kComY]) + std::abs(x[kWaistZ]) + kAround);
 }
 
 double MarginStatements::ClearanceCap(const MarginLimits& limits) {

@@ -18,7 +18,8 @@ struct TightestStatement {
   double bound = 0.0;  ///< how much the margin changes at most [its unit]
   int count = 0;       ///< of all that were added
 
-  /// Adds a statement whose margin changes by at most `change` [its unit].
+  /// Adds a statement whose margin changes by at most `change` [its unit], but for the rounding of
+  /// that number and of what it was subtracted to (smoothing/README.md, "Rounding", 1).
   void Add(const Margin& added, double change);
   /// Counts a statement with at least `spare` to spare, without its margin. Returns false, and
   /// counts nothing, when it may be the tightest.
@@ -93,6 +94,9 @@ class MarginStatements {
   static std::string BodyName(const RobotModel& robot, int body);
   /// The foot to which a body belongs (index of RobotModel::bodies); empty: to none.
   static std::vector<Side> FootOf(const RobotModel& robot, int body);
+  /// How far rounding may carry a distance between bodies and what is near them, or a height, from
+  /// that of the same poses [m]: of sums and products of their coordinates.
+  static double OfDistances(const WalkState& x);
   /// Distances are told apart up to this [m]: MarginLimits::clearance_cap, or twice the largest
   /// demanded clearance where that is more.
   static double ClearanceCap(const MarginLimits& limits);

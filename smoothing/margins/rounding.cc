@@ -1,7 +1,5 @@
 #include "smoothing/margins/rounding.h"
 
-#include <algorithm>
-
 #include "wpg/robot/gravity.h"
 #include "wpg/robot/reference_leg.h"
 #include "wpg/robot/robot_measures.h"
@@ -17,12 +15,6 @@ Rounding::Rounding(const RobotModel& robot)
     : zmp(1e-9 * LegLengthOf(robot) / kLegOfHrp2),
       torque(kOfWeight * robot.mass * kGravity * LegLengthOf(robot)),
       friction(1e-9),
-      acceleration(1e-6 * kLegOfHrp2 / LegLengthOf(robot)),
-      length_(LegLengthOf(robot)) {}
-
-double Rounding::Of(const WalkState& quantities) const {
-  const double far = 0.1 * quantities.cwiseAbs().maxCoeff();
-  return 1e-12 * std::max({1.0, length_, far});
-}
+      acceleration(1e-6 * kLegOfHrp2 / LegLengthOf(robot)) {}
 
 }  // namespace halfstep
