@@ -129,7 +129,7 @@ class ClearanceMargin final : public MarginStatements {
     const Posture& posture = interval.motion.posture;
     BodyClearances::Scratch& scratch = interval.mid.scratch().bodies;
     const double demanded = interval.mid.demanded(family());
-    const double rounding = OfDistances(interval.motion.jet.value);
+    const double rounding = DistanceRounding(interval.motion.jet.value);
     const double cap = interval.mid.limits().clearance_cap;
     const double t = interval.mid.t();
     // Obstacles move by the exact time.

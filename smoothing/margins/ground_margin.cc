@@ -67,7 +67,7 @@ class GroundMargin final : public WholeFamily {
     const BodyHeights& heights = place_.heights;
     const IntervalMotion& motion = interval.motion;
     const WalkState& x = motion.jet.value;
-    const double rounding = OfDistances(x);
+    const double rounding = DistanceRounding(x);
     for (int body : heights.on_feet()) {
       const Side side = static_cast<Side>(Nth(place_.robot.bodies, body).leg);
       const double off = motion.off.value[FootIndex(side) + 2];

@@ -62,12 +62,6 @@ std::vector<Side> MarginStatements::FootOf(const RobotModel& robot, int body) {
   return {static_cast<Side>(Nth(robot.bodies, body).leg)};
 }
 
-double MarginStatements::OfDistances(const WalkState& x) {
-  constexpr double kAround = 8.0;  // [m] bodies of robots of 4 m, and what is near them
-  return 128.0 * kRoundoff *
-         (std::abs(x[kComX]) + std::abs(x[kComY]) + std::abs(x[kWaistZ]) + kAround);
-}
-
 double MarginStatements::ClearanceCap(const MarginLimits& limits) {
   return std::max({limits.clearance_cap, 2.0 * limits.demanded_of(MarginFamily::kClearance),
                    2.0 * limits.demanded_of(MarginFamily::kSelfClearance)});

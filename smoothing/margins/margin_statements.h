@@ -94,9 +94,6 @@ class MarginStatements {
   static std::string BodyName(const RobotModel& robot, int body);
   /// The foot to which a body belongs (index of RobotModel::bodies); empty: to none.
   static std::vector<Side> FootOf(const RobotModel& robot, int body);
-  /// How far rounding may carry a distance between bodies and what is near them, or a height, from
-  /// that of the same poses [m]: of sums and products of their coordinates.
-  static double OfDistances(const WalkState& x);
   /// Distances are told apart up to this [m]: MarginLimits::clearance_cap, or twice the largest
   /// demanded clearance where that is more.
   static double ClearanceCap(const MarginLimits& limits);

@@ -63,8 +63,9 @@ class ZmpMargin final : public SupportFamily {
     const SupportPolygon polygon =
         SupportAt(interval.mid.walk(), interval.mid.at(), x, interval.mid.robot().sole_size);
     const double margin = polygon.Margin(x.segment<2>(kZmpX));
-    tightest->Add(Of(margin, interval.mid.step_in_air()),
-                  change + OfPolygon(x, motion.off.value, interval.mid.robot().sole_size, margin));
+    tightest->Add(
+        Of(margin, interval.mid.step_in_air()),
+        change + SupportRounding(x, motion.off.value, interval.mid.robot().sole_size, margin));
   }
 };
 
