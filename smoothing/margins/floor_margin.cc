@@ -1,11 +1,9 @@
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "smoothing/margins/family_class.h"
 #include "smoothing/margins/foot_solids.h"
 #include "wpg/elementary.h"
-#include "wpg/rounded.h"
 
 namespace halfstep {
 namespace {
@@ -93,9 +91,7 @@ class FloorMargin final : public WholeFamily {
     }
     const int foot = FootIndex(mid.swing());
     const WalkState& x = motion.jet.value;
-    const double rounding =
-        32.0 * kRoundoff *
-        (std::abs(x[foot]) + std::abs(x[foot + 1]) + std::abs(x[foot + 2]) + place_.solids.reach());
+    const double rounding = PlanarRounding(x[foot], x[foot + 1]) + DistanceRounding(x);
     const double lifted = motion.Change(foot + 2);
     tightest->Add(OfFloor(mid), lifted + rounding);
     if (place_.solids.empty()) return;

@@ -33,6 +33,11 @@ double SupportRounding(const WalkState& x, const WalkState& off, const Eigen::Ve
          kLeftOut * kLeftOut / std::max(margin, kLeftOut);
 }
 
+double PlanarRounding(double x, double y) {
+  constexpr double kAround = 4.0;  // [m] soles and what is near them
+  return 32.0 * kRoundoff * (std::abs(x) + std::abs(y) + kAround);
+}
+
 double DistanceRounding(const WalkState& x) {
   constexpr double kAround = 8.0;  // [m]
   return 128.0 * kRoundoff *

@@ -29,6 +29,11 @@ struct Rounding {
 double SupportRounding(const WalkState& x, const WalkState& off, const Eigen::Vector2d& sole_size,
                        double margin);
 
+/// The same of the distance, seen from above, between a sole's outline about a place [m] and
+/// another polygon, but for how far the place may be off: corners turned and moved, and their
+/// differences.
+double PlanarRounding(double x, double y);
+
 /// How far rounding may carry a distance of the robot's bodies, or a height, from that of bodies
 /// that are exactly where they were computed to be [m]: sums of products of their coordinates, and
 /// of what is within 8 m. Obstacles' own coordinates are looked after in planner/collision.

@@ -5,7 +5,6 @@
 
 #include "smoothing/margins/margin_statements.h"
 #include "wpg/elementary.h"
-#include "wpg/rounded.h"
 
 namespace halfstep {
 
@@ -61,11 +60,9 @@ class StandingSoleFamily : public WholeFamily {
       // A sole that stands does not move: its quantities change by 0 and rounding.
       const Margin margin = OfSole(interval.mid, side);
       const double moved = std::isinf(margin.value) ? 0.0 : Moved(interval.motion, side);
-      const WalkState& x = interval.motion.jet.value;
-      const int foot = FootIndex(side);
-      const double far = std::abs(x[foot]) + std::abs(x[foot + 1]);
+      const Eigen::Vector2d at = FootPose(interval.motion.jet.value, side).position();
       tightest->Add(margin,
-                    std::isinf(margin.value) ? 0.0 : moved + 32.0 * kRoundoff * (far + 1.0));
+                    std::isinf(margin.value) ? 0.0 : moved + PlanarRounding(at.x(), at.y()));
     }
   }
 

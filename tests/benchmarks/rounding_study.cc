@@ -34,6 +34,7 @@ int main(int argc, char** argv) {
   DrawNumbers(draws, 1, &tally);
   DrawForms(draws, 2, &tally);
   DrawSupports(draws, 3, &tally);
+  DrawPolygons(draws, 8, &tally);
   DrawDistances(halfstep::LoadRobot(robots + "hrp2.yaml"), draws, 4, &tally);
   kept = Print("any", tally) && kept;
   // Of each instant there are at least three quantities of a kind, and twelve joints.

@@ -35,7 +35,7 @@ int FirstOf(int foot) { return 5 + 4 * foot; }
 
 }  // namespace
 
-ClosedFormWalk::ClosedFormWalk(const WalkPlan& plan) {
+ClosedFormWalk::ClosedFormWalk(const WalkPlan& plan, bool with_stretches) {
   const Real omega = Sqrt(Real(kGravity) / Real(plan.com_height));
   std::array<FloorPose, 2> feet = plan.start;
   // With both feet on the ground: the waist is over the lower one.
@@ -89,7 +89,7 @@ ClosedFormWalk::ClosedFormWalk(const WalkPlan& plan) {
     half_steps_.push_back(half_step);
     if (i < plan.overlaps.size()) begin += T - Real(plan.overlaps[i]);
   }
-  CutIntoStretches();
+  if (with_stretches) CutIntoStretches();
 }
 
 void ClosedFormWalk::Fractionize(const HalfStep& h, Real tau, Jet* jet) const {

@@ -104,7 +104,8 @@ struct Stretch {
 /// The superposed walk of smoothing/README.md, "The homotopy", from the readmes' formulas.
 class ClosedFormWalk {
  public:
-  explicit ClosedFormWalk(const WalkPlan& plan);
+  /// Cutting a walk of thousands of half-steps takes minutes.
+  explicit ClosedFormWalk(const WalkPlan& plan, bool with_stretches = true);
   double duration() const { return static_cast<double>(half_steps_.back().end); }  ///< [s]
   double start_of(int i) const {
     return static_cast<double>(half_steps_[static_cast<size_t>(i)].begin);
@@ -120,7 +121,7 @@ class ClosedFormWalk {
   WalkState At(int k, double tau) const {
     return At(half_steps_[static_cast<size_t>(k)].begin + static_cast<Real>(tau));
   }
-  /// They cover [0, D].
+  /// They cover [0, D]; none where they were not asked for.
   const std::vector<Stretch>& stretches() const { return stretches_; }
 
  private:

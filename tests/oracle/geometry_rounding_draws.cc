@@ -8,6 +8,7 @@
 #include "tests/oracle/nasty_draws.h"
 #include "tests/oracle/real.h"
 #include "tests/oracle/rounding_draws.h"
+#include "wpg/geometry/simple_polygon.h"
 #include "wpg/geometry/support_polygon.h"
 #include "wpg/nth.h"
 #include "wpg/rounded.h"
@@ -131,6 +132,48 @@ void DrawSupports(long draws, unsigned seed, RoundingTally* tally) {
       tally->Add("support", static_cast<double>(Real(margin) - exact),
                  SupportRounding(x, off, size, margin));
     }
+  }
+}
+
+void DrawPolygons(long draws, unsigned seed, RoundingTally* tally) {
+  Draw draw(seed);
+  const auto polygon = [&draw](const Eigen::Vector2d& center, double size) {
+    Eigen::Matrix2Xd corners(2, 4);
+    const double yaw = draw.Uniform(-3, 3);
+    for (int k = 0; k < 4; ++k) {
+      const double angle = yaw + k * 1.5 + draw.Uniform(0, 1);
+      corners.col(k) = center + size * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+    }
+    return corners;
+  };
+  for (; draws > 0; --draws) {
+    const double far = draw.Chance(0.3) ? 900.0 : draw.Logarithmic(0.1, 10);
+    const Eigen::Vector2d center(draw.Uniform(-far, far), draw.Uniform(-far, far));
+    const double size = draw.Logarithmic(0.05, 5);
+    const Eigen::Vector2d aside(draw.Uniform(-1, 1), draw.Uniform(-1, 1));
+    const Eigen::Matrix2Xd a = polygon(center, 0.15);
+    const Eigen::Matrix2Xd b = polygon(center + (size + 0.3) * aside, size);
+    const double distance = PolygonDistance(a, b);
+    if (distance <= 0) continue;
+    // From corners to edges, both ways.
+    Real least = 1e9;
+    const auto from = [&least](const Eigen::Matrix2Xd& corners, const Eigen::Matrix2Xd& edges) {
+      for (Eigen::Index i = 0; i < 4; ++i) {
+        for (Eigen::Index k = 0; k < 4; ++k) {
+          const Real x = edges(0, k), y = edges(1, k), px = Real(corners(0, i)) - x;
+          const Real dx = Real(edges(0, (k + 1) % 4)) - x, dy = Real(edges(1, (k + 1) % 4)) - y;
+          const Real py = Real(corners(1, i)) - y,
+                     along = (px * dx + py * dy) / (dx * dx + dy * dy);
+          const Real share = std::min(Real(1), std::max(Real(0), along));
+          const Real gx = px - share * dx, gy = py - share * dy;
+          least = std::min(least, Sqrt(gx * gx + gy * gy));
+        }
+      }
+    };
+    from(a, b);
+    from(b, a);
+    tally->Add("polygons", std::max(0.0, static_cast<double>(Real(distance) - least)),
+               PlanarRounding(center.x(), center.y()));
   }
 }
 

@@ -199,10 +199,10 @@ void DrawWalks(const std::string& robot_file, long draws, int steps, unsigned se
         plan.overlaps.push_back(NaturalBound(plan, i) * draw.Uniform(0.3, 1));
       }
     }
-    const ClosedFormWalk exact(plan);
+    const ClosedFormWalk exact(plan, false);
     const SuperposedWalk walk(ToSequence(plan), ToParameters(plan));
     const std::string name = steps > 0 ? "long walk" : "walk";
-    for (int k = 0; k < 40 && draws > 0; ++k, --draws) {
+    for (int k = 0; k < (steps > 0 ? 1000 : 40) && draws > 0; ++k, --draws) {
       LocalTime at = walk.Locate(draw.Uniform(0, walk.duration()));
       if (draw.Chance(0.2)) at.tau = draw.Chance(0.5) ? walk.tracks(at.half_step).t1() : 0.0;
       const WalkJet jet = walk.At(at), off = RoundingAt(walk, at);

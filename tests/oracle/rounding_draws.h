@@ -40,6 +40,8 @@ void DrawNumbers(long draws, unsigned seed, RoundingTally* tally);
 /// Points inside the support polygon of two soles, up to 900 m away and down to 1e-13 m from being
 /// in line with each other.
 void DrawSupports(long draws, unsigned seed, RoundingTally* tally);
+/// Distances of polygons as large as soles, treads and rooms, of corners that are exact.
+void DrawPolygons(long draws, unsigned seed, RoundingTally* tally);
 /// Slabs between two bodies of a robot, apart, up to 900 m away: how much wider than the exact one
 /// along the same direction.
 void DrawDistances(const RobotModel& robot, long draws, unsigned seed, RoundingTally* tally);

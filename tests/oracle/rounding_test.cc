@@ -68,6 +68,7 @@ TEST(RoundingTest, OfSupports) {
 
 TEST(RoundingTest, OfDistances) {
   RoundingTally tally;
+  DrawPolygons(5000, 8, &tally);
   DrawDistances(Hrp2(), 1000, 7, &tally);
   Expect(tally, {});
 }
