@@ -84,9 +84,10 @@ class Checks(unittest.TestCase):
                 (INPUT, "no such link", lambda: self.check(joints=["hip"], contacts=["toe"])),
                 (INPUT, "contacts: 3", lambda: self.check(joints=["hip"], contacts=[3])),
                 (INPUT, "no robot", lambda: self.check(joints=["hip"], robot="nobody"))):
-            with self.subTest(words=words), self.assertRaises(kind) as caught:
-                call()
-            self.assertIn(words, str(caught.exception))
+            with self.subTest(words=words):
+                with self.assertRaises(kind) as caught:
+                    call()
+                self.assertIn(words, str(caught.exception))
 
 
 if __name__ == "__main__":
