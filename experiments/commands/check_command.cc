@@ -4,84 +4,37 @@
 #include <memory>
 #include <optional>
 
+#include "experiments/checker/check_place.h"
 #include "experiments/checker/check_report.h"
-#include "experiments/checker/check_trajectory.h"
 #include "experiments/checker/check_walk.h"
 #include "experiments/checker/walk_run.h"
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/command_mistake.h"
 #include "experiments/commands/commands.h"
-#include "experiments/config/data_folder.h"
-#include "experiments/config/experiment.h"
 #include "experiments/run/interrupt.h"
 #include "experiments/run/progress_bar.h"
 #include "wpg/files/input_error.h"
-#include "wpg/files/suggestion.h"
+#include "wpg/files/number_text.h"
 #include "wpg/files/text.h"
-#include "wpg/robot/robot_fields.h"
 
 namespace halfstep {
 namespace {
 
 namespace fs = std::filesystem;
 
-// A URDF with what a robot file says beside it.
-struct GivenRobot {
-  UrdfTree urdf;
-  std::map<std::string, std::string> packages = {};
-  bool dae_up_axis = false;
-  std::vector<std::pair<std::string, std::string>> excluded = {};  // links
-};
-
-GivenRobot Given(const std::string& robot) {
-  if (fs::path(robot).extension() == ".urdf") return {ReadUrdf(robot)};
-  ExperimentConfig config;
-  config.robot = robot;
-  const std::string path = RobotPath(config).string();
-  if (!fs::exists(path)) throw InputError({"--robot: " + UnknownRobot(robot)});
-  RobotFile file = ReadRobotFile(path, ReadYamlFile(path));
-  GivenRobot given{.urdf = std::move(*file.urdf),
-                   .packages = std::move(file.packages),
-                   .dae_up_axis = file.dae_up_axis == "applied"};
-  for (const ExcludedPair& pair : file.excluded) {
-    given.excluded.emplace_back(pair.links[0], pair.links[1]);
-  }
-  return given;
-}
-
-checker::JointNames NamesOf(const UrdfTree& urdf) {
-  checker::JointNames names;
-  for (const UrdfJoint& joint : urdf.joints) {
-    if (joint.kind == UrdfJoint::Kind::kRevolute) {
-      names.turning.push_back(joint.name);
-    } else if (joint.kind == UrdfJoint::Kind::kOther || !joint.faults.empty()) {
-      names.others.push_back(joint.name);
+// LINK, or LINK:FROM..TO in seconds.
+checker::TrajectoryDemands::Contact ContactOf(const std::string& text) {
+  const size_t colon = text.rfind(':'), dots = text.rfind("..");
+  if (colon == std::string::npos) return {text};
+  const auto number = [&](size_t begin, size_t end) {
+    const NumberText read =
+        begin < end ? ParseNumber(text.substr(begin, end - begin)) : NumberText();
+    if (dots == std::string::npos || dots < colon || read.kind != NumberText::Kind::kNumber) {
+      throw InputError({"--contact: " + Quote(text) + " (valid: LINK or LINK:FROM..TO, seconds)"});
     }
-  }
-  return names;
-}
-
-// Sentences on what is not in the statements.
-std::vector<std::string> NotLookedAt(const checker::Trajectory& trajectory, const UrdfTree& urdf,
-                                     bool has_scene) {
-  std::vector<std::string> told;
-  std::vector<std::string> still;
-  for (const UrdfJoint& joint : urdf.joints) {
-    if (joint.kind == UrdfJoint::Kind::kFixed && joint.faults.empty()) continue;
-    if (std::ranges::find(trajectory.joints, joint.name) == trajectory.joints.end()) {
-      still.push_back(joint.name);
-    }
-  }
-  if (!still.empty())
-    told.push_back("joints that stay at 0, for they are not told: " + Joined(still));
-  if (!trajectory.unread.empty()) {
-    told.push_back("columns that name no joint: " + Joined(trajectory.unread));
-  }
-  told.push_back("neighbours: links that one joint joins, or fixed ones");
-  told.push_back(std::string("that the root moves: it is fixed in the world") +
-                 (has_scene ? "" : "; obstacles: there is no --scene"));
-  told.push_back("torques, contacts, the floor");
-  return told;
+    return read.value;
+  };
+  return {text.substr(0, colon), number(colon + 1, dots), number(dots + 2, text.size())};
 }
 
 // The walks of a run's methods.
@@ -135,33 +88,20 @@ ExitStatus CheckMotion(const CheckCommand& command) {
   if (command.robot.empty()) {
     throw InputError({"--robot: is missing (valid: URDF, robot file or shipped robot's name)"});
   }
-  GivenRobot given = Given(command.robot);
-  const UrdfTree& urdf = given.urdf;
+  const checker::CheckPlace place =
+      checker::ReadCheckPlace(command.robot, command.scene, command.packages);
+  const UrdfTree& urdf = place.robot.urdf();
   if (!urdf.warnings.empty()) TellUnder("warnings of the URDF", urdf.warnings);
   const checker::Trajectory trajectory =
-      checker::ReadTrajectory(command.trajectory, command.interpolation, NamesOf(urdf));
-  Scene scene;
-  if (!command.scene.empty()) {
-    scene = LoadScene(FileOrShipped(command.scene, "scenes").string());
-  }
-  for (const auto& [name, folder] : command.packages) given.packages[name] = folder;
-  const checker::JointedRobot robot(urdf, given.packages, given.dae_up_axis);
-  checker::TrajectoryDemands demands = command.demands;
-  demands.ignored.insert(demands.ignored.end(), given.excluded.begin(), given.excluded.end());
+      checker::ReadTrajectory(command.trajectory, command.interpolation, checker::NamesOf(urdf));
   InterruptGuard interrupt;
   std::optional<ProgressBar> bar(std::in_place, "check", command.quiet);
   checker::TrajectoryCheck check =
-      checker::CheckTrajectory(trajectory, robot, scene, demands, [&](double done) {
+      checker::CheckIn(place, trajectory, command.demands, [&](double done) {
         bar->Update(done);
         return !interrupt.token().stop_requested();
       });
   bar.reset();
-  std::vector<std::string> told = NotLookedAt(trajectory, urdf, !command.scene.empty());
-  if (!given.excluded.empty()) {
-    told.push_back(
-        Formatted("%zu pairs of links that the robot file excludes", given.excluded.size()));
-  }
-  check.not_covered.insert(check.not_covered.end(), told.begin(), told.end());
   if (command.json) {
     std::cout << checker::CheckJson(trajectory, check);
   } else if (!command.quiet) {
@@ -174,7 +114,7 @@ CommandAction DeclareCheck(CLI::App* app, const Toolbox&) {
   const auto command = std::make_shared<CheckCommand>();
   struct Texts {
     std::string interpolation;
-    std::vector<std::string> packages, ignored;
+    std::vector<std::string> packages, ignored, contacts;
   };
   const auto texts = std::make_shared<Texts>();
   app->add_option("TRAJECTORY", command->trajectory,
@@ -198,6 +138,18 @@ CommandAction DeclareCheck(CLI::App* app, const Toolbox&) {
   app->add_option("--acceleration", command->demands.acceleration,
                   "of every joint, at most [rad/s²] (default: not asked)")
       ->check(CLI::Range(1e-3, 1e6));
+  app->add_option("--ground", command->demands.ground,
+                  "no body lower below the floor z = 0 than this [m] (default: not asked)")
+      ->check(CLI::Range(0.0, 10.0));
+  app->add_option("--contact", texts->contacts,
+                  "LINK or LINK:FROM..TO [s], which stands still there; repeatable")
+      ->allow_extra_args(false);
+  app->add_option("--contact-distance", command->demands.contact_distance,
+                  "by which a contact may move from where it begins [m] (default: 0.001)")
+      ->check(CLI::Range(0.0, 10.0));
+  app->add_option("--contact-angle", command->demands.contact_angle,
+                  "by which a contact may turn from where it begins [rad] (default: 0.01)")
+      ->check(CLI::Range(0.0, 3.0));
   app->add_option("--ignore", texts->ignored,
                   "LINK=LINK of which no clearance is asked; repeatable")
       ->allow_extra_args(false);
@@ -206,8 +158,9 @@ CommandAction DeclareCheck(CLI::App* app, const Toolbox&) {
   app->add_flag("--quiet", command->quiet, "print nothing but errors");
   app->add_flag("--json", command->json, "print JSON");
   return [app, command, texts] {
-    for (const char* const option : {"--interpolation", "--self-clearance", "--clearance",
-                                     "--acceleration", "--ignore", "--package"}) {
+    for (const char* const option :
+         {"--interpolation", "--self-clearance", "--clearance", "--acceleration", "--ground",
+          "--contact", "--contact-distance", "--contact-angle", "--ignore", "--package"}) {
       if (app->count(option) == 0 || !fs::is_directory(command->trajectory)) continue;
       throw InputError({std::string(option) +
                         ": is of trajectories (valid for a run: --method, --robot, --scene)"});
@@ -217,6 +170,9 @@ CommandAction DeclareCheck(CLI::App* app, const Toolbox&) {
     }
     for (const YamlOverride& pair : ParseOverrides(texts->ignored, "--ignore")) {
       command->demands.ignored.emplace_back(pair.key, pair.value);
+    }
+    for (const std::string& text : texts->contacts) {
+      command->demands.contacts.push_back(ContactOf(text));
     }
     using checker::Interpolation;
     for (const auto one :
