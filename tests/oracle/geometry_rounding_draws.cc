@@ -68,15 +68,15 @@ Real Reach(const ConvexBody& body, const Eigen::Isometry3d& X, const std::array<
 void DrawNumbers(long draws, unsigned seed, RoundingTally* tally) {
   Draw draw(seed);
   for (; draws > 0; --draws) {
-    std::array<Rounded, 3> x;
+    std::array<WithError, 3> x;
     std::array<Real, 3> exact;
     for (size_t i = 0; i < 3; ++i) {
       const double value = draw.Uniform(-1, 1) * draw.Logarithmic(1e-3, 1e3);
       const double error = draw.Chance(0.5) ? 0.0 : 1e-15 * std::abs(value);
-      x[i] = Rounded(value, error);
+      x[i] = WithError(value, error);
       exact[i] = Real(value) + Real(error) * draw.Uniform(-1, 1);
     }
-    const auto add = [&](const std::string& name, Real truth, const Rounded& computed) {
+    const auto add = [&](const std::string& name, Real truth, const WithError& computed) {
       tally->Add(name, static_cast<double>(Size(truth - Real(computed.value()))), computed.error());
     };
     add("sum", exact[0] + exact[1], x[0] + x[1]);

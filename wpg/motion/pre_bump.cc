@@ -25,7 +25,8 @@ constexpr std::array<double, 7> kFallByMixture = {0, 0, 6, -20, 24, -12, 2};
 // A number that was computed before, with a relative error of at most `rounded`.
 template <typename Number>
 Number Given(double number, double rounded) {
-  if constexpr (std::is_same_v<Number, Rounded>) return Rounded(number, rounded * std::abs(number));
+  if constexpr (std::is_same_v<Number, WithError>)
+    return WithError(number, rounded * std::abs(number));
   return Number(number);
 }
 
@@ -126,11 +127,11 @@ std::vector<UnitPiece<UnitDual>> PreBumpByRamp(const UnitDual& theta, const Unit
   return slope;
 }
 
-void AddSeries(const std::vector<Rounded>& series, const Rounded& center, const Rounded& width,
-               UnitJet* error, UnitJet* size) {
+void AddSeries(const std::vector<WithError>& series, const WithError& center,
+               const WithError& width, UnitJet* error, UnitJet* size) {
   std::array<double, 4> sums{}, errors{};
   double k = 0.0;
-  for (const Rounded& c : series) {
+  for (const WithError& c : series) {
     double factor = 1.0;
     for (size_t d = 0; d < 4; ++d) {
       sums[d] += factor * c.most();
@@ -156,11 +157,11 @@ void AddSeries(const std::vector<Rounded>& series, const Rounded& center, const 
 
 template std::vector<UnitDual> SolveLipm(const UnitDual&, std::span<const UnitDual>,
                                          const UnitDual&, const UnitDual&);
-template std::vector<Rounded> SolveLipm(const Rounded&, std::span<const Rounded>, const Rounded&,
-                                        const Rounded&);
+template std::vector<WithError> SolveLipm(const WithError&, std::span<const WithError>,
+                                          const WithError&, const WithError&);
 template std::array<UnitDual, 2> Ends(const std::vector<UnitDual>&, double);
-template std::array<Rounded, 2> Ends(const std::vector<Rounded>&, double);
+template std::array<WithError, 2> Ends(const std::vector<WithError>&, double);
 template std::vector<UnitPiece<UnitDual>> PreBump(const UnitDual&, const UnitDual&, double);
-template std::vector<UnitPiece<Rounded>> PreBump(const Rounded&, const Rounded&, double);
+template std::vector<UnitPiece<WithError>> PreBump(const WithError&, const WithError&, double);
 
 }  // namespace halfstep

@@ -14,8 +14,8 @@ namespace halfstep {
 /// A number with its derivatives with respect to θ and to the shift's fraction.
 using UnitDual = Eigen::AutoDiffScalar<Eigen::Vector2d>;
 
-// What follows is there for UnitDual and for Rounded, which finds how far rounding carries what is
-// computed with the other.
+// What follows is there for UnitDual and for WithError, which finds how far rounding carries what
+// is computed with the other.
 
 /// The solution c(x) of the LIPM c_xx = λ²·(c − p) with c(0) = c0 and c_x(0) = c1, where p has the
 /// coefficients `p`: coefficients of powers of x, from x⁰ on, summed until what is left out is
@@ -40,8 +40,8 @@ struct UnitPiece {
 /// Raises `error` (value, s and ss) to what Horner's rule and the coefficients' own errors make of
 /// Σ c_k x^k, x = (σ − center)/width, for all |x| ≤ 1, and `most` (sss) to its third derivative.
 /// What the series leaves out is below 1e-21 of the sum of its terms.
-void AddSeries(const std::vector<Rounded>& series, const Rounded& center, const Rounded& width,
-               UnitJet* error, UnitJet* most);
+void AddSeries(const std::vector<WithError>& series, const WithError& center,
+               const WithError& width, UnitJet* error, UnitJet* most);
 
 /// The pre-bump −B of RestToRest on [0, σ₁], `first` = σ₁, and the CoM's motion under it from rest;
 /// r is the bump's ramp.

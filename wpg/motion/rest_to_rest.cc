@@ -152,10 +152,10 @@ RestToRest::RestToRest(double theta, double shift_fraction, double bump_ramp)
 }
 
 void RestToRest::FindAccuracy(double shift_fraction, double bump_ramp, double round) {
-  const HalfMotion<Rounded> half =
-      SolveHalf(Rounded(theta_, 4.0 * kRoundoff * theta_), Rounded(shift_fraction), bump_ramp);
+  const HalfMotion<WithError> half =
+      SolveHalf(WithError(theta_, 4.0 * kRoundoff * theta_), WithError(shift_fraction), bump_ramp);
   UnitAccuracy &com = com_accuracy_, &zmp = zmp_accuracy_;
-  for (const UnitPiece<Rounded>& piece : half.pieces) {
+  for (const UnitPiece<WithError>& piece : half.pieces) {
     AddSeries(piece.com, piece.center, piece.width, &com.error, &com.most);
     AddSeries(piece.zmp, piece.center, piece.width, &zmp.error, &zmp.most);
   }
