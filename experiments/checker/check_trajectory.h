@@ -54,6 +54,7 @@ struct TrajectoryFinding {
   /// Of what is not proved: the least at the trajectory's own knots, as dense sampling at its rate
   /// would see it.
   std::optional<double> at_knots = {};
+  bool hint_missing = false;  ///< not proved, for the proof tells no direction there
 };
 
 /// All findings, and what was not asked.
