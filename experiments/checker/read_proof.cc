@@ -4,7 +4,6 @@
 #include "experiments/checker/frame.h"
 #include "experiments/checker/proof_file.h"
 #include "experiments/verify/json_text.h"
-#include "wpg/files/input_error.h"
 #include "wpg/robot/gravity.h"
 
 namespace halfstep::checker {
@@ -196,7 +195,7 @@ void ReadMotion(const JsonMember& of, WalkRun* walk) {
     row.foot = SideIn(item, "foot");
     row.X_WF = {item.Number("x_m"), item.Number("y_m"), item.Number("yaw_rad")};
     row.via_height = item.Number("via_height_m");
-    const Eigen::VectorXd moved = Numbers(item, item.List("moved"), 3);
+    const Eigen::Vector3d moved = PointIn(item, "moved");
     moves.push_back({moved[0], moved[1], moved[2]});
   }
   if (moves.size() >= 2 && tables.footsteps[0].foot == tables.footsteps[1].foot) {
@@ -222,7 +221,7 @@ void ReadMotion(const JsonMember& of, WalkRun* walk) {
   const char* const key = overlapped ? "overlaps_s" : "starts_s";
   const Eigen::VectorXd times = Numbers(of, of.List(key), 0);
   if (n == 0 || static_cast<size_t>(times.size()) != (overlapped ? n - 1 : n) ||
-      (times.size() > 0 && times.cwiseAbs().maxCoeff() > 1e5) || (!overlapped && times[0] != 0.0)) {
+      times.lpNorm<Eigen::Infinity>() > 1e5 || (!overlapped && times[0] != 0.0)) {
     of.Fail(std::string(key) + " is not of these half-steps");
   }
   if (overlapped) walk->overlaps.emplace(times.begin(), times.end());
@@ -240,8 +239,9 @@ void ReadStatement(const JsonMember& of, WalkRun* walk) {
   for (const JsonMember& item : of.Items("families")) {
     const auto at = std::ranges::find(verify::kFamilyNames, item.String("family"));
     const auto family = static_cast<size_t>(at - verify::kFamilyNames.begin());
-    if (family >= verify::kFoothold || item.String("unit") != verify::kUnits[family]) {
-      item.Fail("is of no family that is known, in its unit");
+    if (family >= verify::kFoothold || item.String("unit") != verify::kUnits[family] ||
+        certificate.demanded[family] != verify::kNotDemanded) {
+      item.Fail("is of no family that is known, in its unit, once");
     }
     certificate.demanded[family] = item.Number("demanded");
   }
@@ -279,9 +279,7 @@ ProofHints HintsFrom(const JsonMember& of) {
 ProofFile ReadProof(const std::string& path, const std::string& text) {
   const nlohmann::json json = verify::ParseJson(path, text);
   const JsonMember root(path, json, "");
-  if (!json.contains("format") || root.String("format") != "halfstep proof 1") {
-    throw InputError({path + ": is no proof (valid: \"format\": \"halfstep proof 1\")"});
-  }
+  if (root.String("format") != "halfstep proof 1") root.Fail("is no proof of this format");
   ProofFile proof;
   const JsonMember walk = root.Object("walk");
   proof.run = walk.String("run");
