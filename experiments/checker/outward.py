@@ -294,3 +294,39 @@ def profile(pieces):
     """0 before and 1 after."""
     return [(I(-1e9), pieces[0][0], I(0.0), I(1.0), [I(0.0)], 0.0), *pieces,
             (pieces[-1][1], I(1e9), I(0.0), I(1.0), [I(1.0)], 0.0)]
+
+
+def scaled(scale, powers):
+    return [scale * I(p) if not isinstance(p, I) else scale * p for p in powers]
+
+
+def added(a, b):
+    n = max(len(a), len(b))
+    return [p + q for p, q in zip(a + [I(0.0)] * (n - len(a)), b + [I(0.0)] * (n - len(b)))]
+
+
+def series(square, p, c0, c1):
+    """Of c'' = square (c - p) on |x| <= 1; from where p ends and square <= k k / 4 every second term is at most a
+    quarter, so that what is left out of c and c' is below (k + 1) times the last two terms."""
+    c = [c0, c1]
+    for k in range(402):
+        tail = float((k + 1) * (c[k].size() + c[k + 1].size()))
+        if k >= len(p) and square.hi <= k * k / 4.0 and tail < 1e-24:
+            return c, tail
+        c.append(square * (c[k] - p[k] if k < len(p) else c[k]) / float((k + 2) * (k + 1)))
+    raise ValueError("a half-step is too long")
+
+
+def angle(s, c):
+    """Within half a turn of 0 at m, by the guess and an angle that lies between 0 and its tangent."""
+    guess = np.arctan2(s.at().middle(), c.at().middle())
+    s0, c0 = sine_cosine(I(guess))
+    tangent = (s.at() * c0 - c.at() * s0) / (c.at() * c0 + s.at() * s0).positive()
+    at = I(guess) + I(np.minimum(0.0, tangent.lo), np.maximum(0.0, tangent.hi))
+    top = c.over() * s.over(3) - s.over() * c.over(3) + c.over(1) * s.over(2) - s.over(1) * c.over(2)
+    return T.of([at, *(c.at() * s.at(k) - s.at() * c.at(k) for k in (1, 2))], top, s.h)
+
+
+def under(limit, x):
+    """At least limit - |x|, which is not below 0 where |x| is not above the limit."""
+    return np.where(limit >= x.size(), np.maximum(0.0, down(limit - x.size())), down(limit - x.size()))

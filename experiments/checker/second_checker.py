@@ -8,35 +8,17 @@ import math
 import sys
 
 import numpy as np
-
-from outward import (I, T, axis_turn, back, column, cross, dot, down, evaluate, horner, many, product, profile,
-                     sine_cosine, stack, total, turned, up)
+from outward import (I, T, added, angle, axis_turn, back, column, cross, dot, down, evaluate, horner, many, product,
+                     profile, scaled, series, sine_cosine, stack, total, turned, under, up)
 
 SIDES, UP = ("left", "right"), np.array([0.0, 0.0, 1.0])
 ON_FLOOR, FINEST, MISSED, MOST = 1e-8, 1e-6, 1e-9, 1_000_000  # m; s; units of margins; intervals
 S = [0.0, 0.0, 0.0, 10.0, -15.0, 6.0]
 
 
-class Refused(Exception):
-    pass
-
-
 def need(holds, words):
     if not holds:
-        raise Refused(words)
-
-
-def scaled(scale, powers):
-    return [scale * I(p) if not isinstance(p, I) else scale * p for p in powers]
-
-
-def added(a, b):
-    n = max(len(a), len(b))
-    return [p + q for p, q in zip(a + [I(0.0)] * (n - len(a)), b + [I(0.0)] * (n - len(b)))]
-
-
-def step(begin, end):
-    return profile([(begin, end, begin, end - begin, scaled(I(1.0), S), 0.0)])
+        raise ValueError(words)
 
 
 def ramped_step(begin, end, r):
@@ -47,24 +29,9 @@ def ramped_step(begin, end, r):
                     (end - ramp, end, end, -2.0 * ramp, [I(1.0)] + scaled(-a, S)[1:], 0.0)])
 
 
-def series(square, p, c0, c1):
-    """Of c'' = square (c - p) on |x| <= 1; from where p ends and square <= k k / 4 every second term is at most a
-    quarter, so that what is left out of c and c' is below (k + 1) times the last two terms."""
-    c = [c0, c1]
-    for k in range(402):
-        tail = float((k + 1) * (c[k].size() + c[k + 1].size()))
-        if k >= len(p) and square.hi <= k * k / 4.0 and tail < 1e-24:
-            return c, tail
-        c.append(square * (c[k] - p[k] if k < len(p) else c[k]) / float((k + 2) * (k + 1)))
-    raise Refused("a half-step is too long")
-
-
-def at_end(c, tail, x):
-    return [f + I(-tail, tail) for f in horner(c, I(x), 2)]
-
-
 def pendulum(theta_squared, shift, ramp):
     """CoM and ZMP from rest to rest."""
+    at_end = lambda c, tail, x: [f + I(-tail, tail) for f in horner(c, I(x), 2)]
     first, delta, part = 0.5 - 0.5 * I(shift), 0.5 * I(shift), min(ramp, 0.5)
     mixed = 2.0 * I(ramp) - 1.0 if ramp > 0.5 else I(0.0)
     rise = added(scaled(mixed, [0, 0, 0, -8, 12, -6, 1]), scaled(1.0 - mixed, [0, 0, 0, -10, 15, -6]))
@@ -106,6 +73,7 @@ class Motion:
         rows, feet = motion["half_steps"], motion["footsteps"]
         need(rows and len(rows) == 2 * (len(feet) - 2), "half-steps are not two for each footstep")
         self.rests, self.steps, self.flights, soles = [], [], [], [None, None]
+        step = lambda begin, end: profile([(begin, end, begin, end - begin, scaled(I(1.0), S), 0.0)])
         omega_squared = I(motion["gravity_m_s2"]) / (I(com_height) - I(motion["crouch_m"]))
         place = lambda foot: [I(foot["x_m"]), I(foot["y_m"]), I(foot["yaw_rad"])]
         for foot in feet[:2]:
@@ -172,9 +140,8 @@ class Motion:
                 continue
             sigma, rate = (stack([I(m[on]), I(lo[on], hi[on])]) - s["start"]) / s["T"], 1.0 / s["T"]
 
-            def curve(g):
-                return T.of([g[0][0], g[1][0] * rate, g[2][0] * rate.square()], g[3][1] * (rate * rate.square()), h[on])
-
+            curve = lambda g: T.of([g[0][0], g[1][0] * rate, g[2][0] * rate.square()],
+                                   g[3][1] * (rate * rate.square()), h[on])
             c, p = evaluate(s["com"], sigma, 2), evaluate(s["zmp"], sigma)
             com = curve([c[0], c[1], s["square"] * (c[0] - p[0]), s["square"] * (c[1] - p[1])])
             zmp, way, yaw, height = curve(p), *(curve(evaluate(s[k], sigma)) for k in ("way", "yaw", "height"))
@@ -197,10 +164,8 @@ class Leg:
         self.squares = along.square() + dot(h, h) + dot(a, a)
         self.cos0, self.sin0 = dot(h, a) / self.levers, dot(axis, cross(h, a)) / self.levers
         self.sole_R, self.sole_p = np.array(leg["sole"]["R"]), np.array(leg["sole"]["p_m"])
-
         def rotate(u, angle, x):
             return x * math.cos(angle) + np.cross(u, x) * math.sin(angle) + u * (u @ x) * (1 - math.cos(angle))
-
         q, sign = leg["standing_rad"], lambda x: 1.0 if x >= 0 else -1.0  # of its branch
         self.knee_sign = sign(math.sin(q[3]) * self.cos0.middle() + math.cos(q[3]) * self.sin0.middle())
         seen = rotate(w[4], -q[4], rotate(w[3], -q[3], self.hip - knee) + knee - self.ankle)
@@ -264,21 +229,6 @@ class Leg:
             Q = axis_turn(u, *turn)
             moved[i] = R, p = product(R, Q), turned(R, column(center) - at(Q, center)) + p
         return reach, [angle(*turn) for turn in turns], moved
-
-
-def angle(s, c):
-    """Within half a turn of 0 at m, by the guess and an angle that lies between 0 and its tangent."""
-    guess = np.arctan2(s.at().middle(), c.at().middle())
-    s0, c0 = sine_cosine(I(guess))
-    tangent = (s.at() * c0 - c.at() * s0) / (c.at() * c0 + s.at() * s0).positive()
-    at = I(guess) + I(np.minimum(0.0, tangent.lo), np.maximum(0.0, tangent.hi))
-    top = c.over() * s.over(3) - s.over() * c.over(3) + c.over(1) * s.over(2) - s.over(1) * c.over(2)
-    return T.of([at, *(c.at() * s.at(k) - s.at() * c.at(k) for k in (1, 2))], top, s.h)
-
-
-def under(limit, x):
-    """At least limit - |x|, which is not below 0 where |x| is not above the limit."""
-    return np.where(limit >= x.size(), np.maximum(0.0, down(limit - x.size())), down(limit - x.size()))
 
 
 def farthest(n, body):
@@ -390,8 +340,7 @@ class State:
         if frame in (6, 12):  # a foot's reaches no lower than its sole
             z = self.x[7 if frame == 6 else 11].over().lo
             return np.where(z >= -ON_FLOOR, np.inf, z)
-        down_there = -self.R.over()[2, :, frame]
-        return (self.p.over()[2, frame] - I(farthest(down_there, self.proof.bodies[body]))).lo
+        return (self.p.over()[2, frame] - I(farthest(-self.R.over()[2, :, frame], self.proof.bodies[body]))).lo
 
     def swing(self, family, limit):
         bound, f = np.full(len(self.m), np.inf), np.nonzero(self.moves if family == "floor" else self.flies)[0]
@@ -519,6 +468,9 @@ class Proof:
         self.hints = {(h["family"], h["a"], h["b"]): h["from"] for h in data["hints"]["directions"]}
         self.times, self.areas, self.statements, self.found = data["hints"]["times_s"], scene["no_step_m"], [], []
         self.demands = {family["family"]: family["demanded"] for family in self.said["families"]}
+        need(len(self.demands) == len(self.said["families"]), "a family is demanded twice")
+        for times in [[0.0] + [w["t_s"] for w in obstacle["waypoints"]] for obstacle in self.obstacles]:
+            need(all(t < later for t, later in zip(times, times[1:])), "times of waypoints do not increase")
         limits = {"floor": 0.0, "foot_speed": self.said["foot_speed_m_s"], "foot_yaw_rate": self.said["foot_yaw_rate_rad_s"],
                   "landing_speed": self.said["landing_speed_m_s"], "zmp": 0.0, "zmp_robot": 0.0, "friction": scene["friction"]}
         scale, k_own = I(self.said["joint_speed_scale"]), range(len(own))
@@ -635,17 +587,12 @@ def main(path):
         with open(path, encoding="utf-8") as file, np.errstate(all="ignore"):
             proof = Proof(json.load(file, parse_constant=lambda text: float("refused")))
             looked = proof.prove()
-    except Refused as reason:
-        print(f"{path}: {reason}", file=sys.stderr)
-        return 2
     except (KeyError, ValueError, TypeError, IndexError, OSError, AttributeError) as error:
         print(f"{path}: is no proof: {error!r}", file=sys.stderr)
         return 2
-    for _, line in sorted(proof.found):
-        print(line)
-    if not proof.found:
-        print(f"proved: {len(proof.statements)} statements of {len(proof.demands)} families")
-    print(f"{looked} intervals of time", *(f"not looked at: {line}" for line in proof.said["not_covered"]), sep="\n")
+    proved = f"proved: {len(proof.statements)} statements of {len(proof.demands)} families"
+    print(*([line for _, line in sorted(proof.found)] or [proved]), f"{looked} intervals of time",
+          *(f"not looked at: {line}" for line in proof.said["not_covered"]), sep="\n")
     return 1 if proof.found else 0
 
 
