@@ -12,7 +12,7 @@ from outward import (I, T, added, angle, axis_turn, back, column, cross, dot, do
                      profile, scaled, series, sine_cosine, stack, total, turned, under, up)
 
 SIDES, UP = ("left", "right"), np.array([0.0, 0.0, 1.0])
-ON_FLOOR, FINEST, MISSED, MOST = 1e-8, 1e-6, 1e-9, 1_000_000  # m; s; units of margins; intervals
+ON_FLOOR, FINEST, MISSED, MOST = 1e-8, 1e-9, 1e-9, 1_000_000  # m; s; units of margins; intervals
 S = [0.0, 0.0, 0.0, 10.0, -15.0, 6.0]
 
 
