@@ -54,6 +54,10 @@ std::string MissedText(const TrajectoryFinding& finding, const KindText& text) {
     return Formatted("%s at %.4f s: nothing is known there: out of reach, or singular",
                      finding.subject.c_str(), finding.at);
   }
+  if (finding.hint_missing) {
+    return Formatted("%s at %.4f s: hint missing: no direction is told that separates them there",
+                     finding.subject.c_str(), finding.at);
+  }
   std::string said = Formatted("%s at %.4f s: ", finding.subject.c_str(), finding.at) +
                      Valued(finding.least, text, finding.slides) +
                      Formatted(", %.4g demanded", text.scale * finding.demanded);
@@ -110,6 +114,7 @@ Json JsonOf(Json json, const TrajectoryCheck& check) {
                           {"at_s", finding.at}});
       if (finding.at_knots) findings.back()["at_knots"] = number(*finding.at_knots);
       if (finding.holds) findings.back()["holds"] = number(*finding.holds);
+      if (finding.hint_missing) findings.back()["hint_missing"] = true;
     }
   }
   json.update({{"proved", check.proved()},

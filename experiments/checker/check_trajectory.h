@@ -70,6 +70,7 @@ struct TrajectoryFinding {
   /// Of a contact or the ground that is not proved: the least limit that is, for all t [m, rad].
   std::optional<double> holds = {};
   bool slides = false;  ///< it is about a joint that slides: in m, not rad
+  bool hint_missing = false;  ///< not proved, for the proof tells no direction there
 };
 
 /// All findings, and what was not asked.

@@ -33,11 +33,12 @@ constexpr std::array<Kind, verify::kNumFamilies> kKinds = {
 class WalkProof {
  public:
   WalkProof(const RobotModel& robot, const WalkMotion& motion, double crouch,
-            WalkStatements* statements, TrajectoryCheck* check)
+            WalkStatements* statements, ProofHints* hints, TrajectoryCheck* check)
       : robot_(robot),
         motion_(motion),
         height_(Interval(robot.waist_height) - Interval(crouch)),
         statements_(*statements),
+        hints_(*hints),
         check_(*check),
         solvers_{LegSolver(robot.legs[0]), LegSolver(robot.legs[1])} {
     for (const WalkStatement& statement : statements_.all()) {
@@ -46,7 +47,9 @@ class WalkProof {
                            .proved = true,
                            .demanded = statement.demanded,
                            .least = kInfinity});
+      directions_.push_back(&hints->directions[{statement.family, statement.a, statement.b}]);
     }
+    for (WalkStatement& statement : statements_.all()) statement.told = hints->told;
   }
 
   void Prove(double from, double to) {
@@ -63,7 +66,10 @@ class WalkProof {
     ++check_.intervals;
     WalkState state(robot_, solvers_, motion_, height_, from, to);
     std::erase_if(open, [&](size_t i) { return IsSettled(i, from, to, &state); });
-    if (open.empty()) return;
+    if (open.empty()) {
+      if (!hints_.told) hints_.times.push_back(to);
+      return;
+    }
     const double middle = state.middle();
     Look(from, middle, open);
     Look(middle, to, std::move(open));
@@ -74,11 +80,14 @@ class WalkProof {
     TrajectoryFinding& finding = findings_[i];
     if (!finding.proved) return true;
     Kept kept{-kInfinity, std::numeric_limits<double>::quiet_NaN()};
+    WalkStatement& statement = statements_.all()[i];
+    if (hints_.told) statement.direction = ProofHints::At(*directions_[i], state->middle());
     try {
-      kept = statements_.Look(&statements_.all()[i], state);
+      kept = statements_.Look(&statement, state);
     } catch (const NotDefined&) {
     }
     if (kept.bound >= finding.demanded) {
+      if (!hints_.told) ProofHints::Note(from, statement.direction, directions_[i]);
       if (kept.bound < finding.least) {
         finding.least = kept.bound;
         finding.at = state->middle();
@@ -90,6 +99,7 @@ class WalkProof {
     if (finding.proved) return false;
     finding.least = kept.value;
     finding.at = state->middle();
+    finding.hint_missing = kept.hint_missing;
     return true;
   }
 
@@ -97,9 +107,11 @@ class WalkProof {
   const WalkMotion& motion_;
   Interval height_;
   WalkStatements& statements_;
+  ProofHints& hints_;
   TrajectoryCheck& check_;
   std::array<LegSolver, 2> solvers_;
   std::vector<TrajectoryFinding> findings_;
+  std::vector<ProofHints::Directions*> directions_;
 };
 
 // What is known without looking at intervals: at most one foot is in the air, and how long ZMPs
@@ -139,7 +151,7 @@ ConvexBody FlatBody(const Eigen::Matrix2Xd& polygon) {
 
 // Each sole where it stands at some time, and each area, by its hull.
 void AddSteps(const WalkMotion& motion, const RobotModel& robot, const Scene& scene,
-              double demanded, TrajectoryCheck* check) {
+              double demanded, ProofHints* hints, TrajectoryCheck* check) {
   const ConvexBody outline = FlatBody(robot.sole_outline);
   std::vector<std::pair<double, size_t>> places = {{0.0, 0}, {0.0, 1}};  // time, side
   for (const WalkMotion::Flight& flight : motion.flights()) {
@@ -147,7 +159,8 @@ void AddSteps(const WalkMotion& motion, const RobotModel& robot, const Scene& sc
   }
   for (size_t k = 0; k < scene.no_step.size(); ++k) {
     const ConvexBody area = FlatBody(scene.no_step[k]);
-    for (const auto& [t, side] : places) {
+    for (size_t place = 0; place < places.size(); ++place) {
+      const auto [t, side] = places[place];
       const WalkNumbers x = motion.On(t, t);
       const Curve* const sole = &x[kSole + 4 * side];
       FrameIn<Curve> X_WF =
@@ -156,15 +169,23 @@ void AddSteps(const WalkMotion& motion, const RobotModel& robot, const Scene& sc
       const VectorIn<Curve> moved = X_WF * VectorOf<Curve>(outline.center);
       const Vector center = {moved[0].over[0], moved[1].over[0], 0.0};
       const Vector at_rest = VectorOf(area.center);
-      Eigen::Vector3d direction{0, 0, 0};
-      const Kept kept = WalkStatements::Apart({area, FrameIn<Curve>(), at_rest},
-                                              {outline, X_WF, center}, demanded, &direction);
+      ProofHints::Directions& known = hints->directions[{verify::kNoStep, place, k}];
+      Eigen::Vector3d direction = ProofHints::At(known, t);
+      const Kept kept =
+          WalkStatements::Apart({area, FrameIn<Curve>(), at_rest}, {outline, X_WF, center},
+                                demanded, &direction, hints->told);
+      if (!hints->told && direction.isZero()) {  // their circles are apart
+        const Vector away = center - at_rest;
+        direction << away[0].Middle(), away[1].Middle(), 0.0;
+      }
+      if (!hints->told) ProofHints::Note(t, direction.normalized(), &known);
       check->findings.push_back({.kind = Kind::kNoStep,
                                  .subject = Formatted("sole at %.3f s - area %zu", t, k + 1),
                                  .proved = kept.bound > 0.0 && kept.bound >= demanded,
                                  .demanded = demanded,
                                  .least = kept.bound,
-                                 .at = t});
+                                 .at = t,
+                                 .hint_missing = kept.hint_missing});
     }
   }
 }
@@ -189,22 +210,25 @@ void RefuseUnknown(const RobotModel& robot, const Scene& scene,
 
 TrajectoryCheck CheckWalk(const WalkTables& tables, const RobotModel& robot, const Scene& scene,
                           const verify::CertificateText& certificate, double crouch,
-                          const std::function<bool(double done)>& progress) {
+                          const std::function<bool(double done)>& progress, ProofHints* hints) {
   RefuseUnknown(robot, scene, certificate);
   TrajectoryCheck check;
+  ProofHints found;
+  if (hints == nullptr) hints = &found;
   const WalkMotion motion(tables);
   WalkStatements statements(robot, scene, certificate);
   const auto demanded = [&](verify::Family family) { return Nth(certificate.demanded, family); };
   AddTimes(motion, demanded(verify::kDoubleSupport), &check);
   if (demanded(verify::kNoStep) != verify::kNotDemanded) {
-    AddSteps(motion, robot, scene, demanded(verify::kNoStep), &check);
+    AddSteps(motion, robot, scene, demanded(verify::kNoStep), hints, &check);
   }
-  WalkProof proof(robot, motion, crouch, &statements, &check);
+  WalkProof proof(robot, motion, crouch, &statements, hints, &check);
   std::vector<double> knots = motion.knots();
   for (const double t : statements.WaypointTimes()) {
     if (t > 0.0 && t < motion.end()) knots.push_back(t);
   }
   std::ranges::sort(knots);
+  if (!hints->told) hints->times.push_back(knots.front());
   for (size_t i = 0; i + 1 < knots.size() && !check.stopped; ++i) {
     proof.Prove(knots[i], knots[i + 1]);
     check.stopped = progress && !progress(knots[i + 1] / motion.end());

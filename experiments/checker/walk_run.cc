@@ -69,10 +69,12 @@ WalkRun ReadWalkRun(const std::string& run, const std::string& method,
                     const std::string& robot_file, const std::string& scene_file) {
   const fs::path root(run), folder = root / method;
   const auto path = [](const fs::path& in, const char* name) { return (in / name).string(); };
-  const auto read = [&](const auto& reader, const fs::path& in, const char* name) {
-    return reader(path(in, name), ReadBytes(path(in, name)));
-  };
   WalkRun walk;
+  const auto read = [&](const auto& reader, const fs::path& in, const char* name) {
+    const std::string text = ReadBytes(path(in, name));
+    walk.files.push_back(RecordOf(path(in, name), text));
+    return reader(path(in, name), text);
+  };
   walk.certificate = read(verify::ReadCertificateJson, folder, "certificate.json");
   const verify::RunManifest manifest = read(verify::ReadManifest, root, "manifest.json");
   const ExperimentConfig config = LoadConfig(path(root, "config.yaml"), {});
@@ -95,6 +97,10 @@ WalkRun ReadWalkRun(const std::string& run, const std::string& method,
                                     manifest.scene_sha256})
                      .input;
   }
+  walk.files.push_back(RecordOf(path(root, "config.yaml"), ReadBytes(path(root, "config.yaml"))));
+  for (const auto* files : {&walk.robot.files, &walk.scene.files}) {
+    walk.files.insert(walk.files.end(), files->begin(), files->end());
+  }
   walk.tables.footsteps = read(verify::ReadFootsteps, root, "footsteps.csv");
   walk.tables.half_steps = read(verify::ReadHalfSteps, folder, "half_steps.csv");
   const HalfStepConfig& form = config.half_step;
@@ -109,6 +115,8 @@ WalkRun ReadWalkRun(const std::string& run, const std::string& method,
   std::optional<std::vector<verify::OverlapRow>> overlaps;
   if (fs::exists(folder / "overlaps.csv")) {
     overlaps = read(verify::ReadOverlaps, folder, "overlaps.csv");
+    walk.overlaps.emplace();
+    for (const verify::OverlapRow& row : *overlaps) walk.overlaps->push_back(row.overlap);
   }
   walk.tables.starts = StartsOf(walk.tables.half_steps, overlaps, path(folder, "half_steps.csv"));
   if (config.smoothing.stop_branches != "none") {

@@ -13,12 +13,14 @@ namespace halfstep::checker {
 
 /// A walk of a run folder, and what is demanded of it.
 struct WalkRun {
-  WalkTables tables;                     ///< that describe it
-  RobotModel robot;                      ///< that walks
-  Scene scene;                           ///< among what
-  verify::CertificateText certificate;   ///< what is demanded; its rows are not read
-  double crouch = 0.0;                   ///< [m]
-  std::vector<std::string> not_covered;  ///< sentences on what is not looked at
+  WalkTables tables;                                 ///< that describe it
+  RobotModel robot;                                  ///< that walks
+  Scene scene;                                       ///< among what
+  verify::CertificateText certificate;               ///< what is demanded; its rows are not read
+  double crouch = 0.0;                               ///< [m]
+  std::vector<std::string> not_covered;              ///< sentences on what is not looked at
+  std::optional<std::vector<double>> overlaps = {};  ///< [s]; none: `starts` are as planned
+  std::vector<InputFile> files = {};                 ///< that it was read from
 };
 
 /// The folders of a run's methods: the one of `method`, or all that say they are certified. Throws

@@ -12,8 +12,9 @@ namespace halfstep::checker {
 
 /// What is kept of a margin on an interval of time.
 struct Kept {
-  double bound = 0.0;  ///< at least that, at every instant
-  double value = 0.0;  ///< about that in the middle
+  double bound = 0.0;         ///< at least that, at every instant
+  double value = 0.0;         ///< about that in the middle
+  bool hint_missing = false;  ///< no direction was told, which might show more
 };
 
 /// One statement about a walk: of all instants, or where it counts.
@@ -24,6 +25,7 @@ struct WalkStatement {
   /// Side and joint; indices of a robot's bodies and of an obstacle; unused.
   size_t a = 0, b = 0;
   Eigen::Vector3d direction{0, 0, 0};  ///< along which two bodies were separated last; 0: none
+  bool told = false;                   ///< whether by others, so that no other one is looked for
 };
 
 /// Statements of a robot among obstacles, and how to look at them.
@@ -44,8 +46,9 @@ class WalkStatements {
     const FrameIn<Curve>& X_W;  ///< that frame
     const Vector& center;       ///< of its bounding sphere, in W [m]
   };
-  /// How far two of them are apart along the best direction known [m].
-  static Kept Apart(const Placed& a, const Placed& b, double demanded, Eigen::Vector3d* direction);
+  /// How far two of them are apart along the best direction known [m]; `told`: along this one.
+  static Kept Apart(const Placed& a, const Placed& b, double demanded, Eigen::Vector3d* direction,
+                    bool told);
 
  private:
   Kept OfSwingFoot(verify::Family family, const WalkState& state) const;

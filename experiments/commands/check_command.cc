@@ -7,15 +7,19 @@
 #include "experiments/checker/check_place.h"
 #include "experiments/checker/check_report.h"
 #include "experiments/checker/check_walk.h"
+#include "experiments/checker/proof_file.h"
 #include "experiments/checker/walk_run.h"
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/command_mistake.h"
 #include "experiments/commands/commands.h"
 #include "experiments/run/interrupt.h"
 #include "experiments/run/progress_bar.h"
+#include "experiments/verify/csv_text.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/number_text.h"
 #include "wpg/files/text.h"
+#include "wpg/files/whole_file.h"
+#include "wpg/robot/robot_fields.h"
 
 namespace halfstep {
 namespace {
@@ -37,54 +41,90 @@ checker::TrajectoryDemands::Contact ContactOf(const std::string& text) {
   return {text.substr(0, colon), number(colon + 1, dots), number(dots + 2, text.size())};
 }
 
-// The walks of a run's methods.
-ExitStatus CheckWalks(const CheckCommand& command) {
+// Of a run's walk, or of one that a proof's file has; shows what was found.
+checker::TrajectoryCheck CheckOne(const CheckCommand& command, const std::string& method,
+                                  const checker::WalkRun& walk, checker::ProofHints* hints) {
+  const std::string& from = command.trajectory;
+  InterruptGuard interrupt;
+  std::optional<ProgressBar> bar(std::in_place, "check " + method, command.quiet);
+  checker::TrajectoryCheck check;
+  try {
+    check = checker::CheckWalk(
+        walk.tables, walk.robot, walk.scene, walk.certificate, walk.crouch,
+        [&](double done) {
+          bar->Update(done);
+          return !interrupt.token().stop_requested();
+        },
+        hints);
+  } catch (const InputError& error) {
+    std::vector<std::string> told = error.complaints();
+    for (std::string& line : told) line.insert(0, from + ": ");
+    throw InputError(told);
+  }
+  bar.reset();
+  check.not_covered.insert(check.not_covered.end(), walk.not_covered.begin(),
+                           walk.not_covered.end());
+  if (!command.json && !command.quiet) {
+    const bool empty = walk.scene.obstacles.empty() && walk.scene.no_step.empty();
+    const std::string title =
+        Formatted("%s, %s: %zu half-steps of %s in %s", from.c_str(), method.c_str(),
+                  walk.tables.half_steps.size(), walk.robot.name.c_str(),
+                  empty ? "an empty room" : walk.scene.name.c_str());
+    std::cout << checker::CheckScreen(title, check)
+              << Formatted("\n%td intervals of time\n\n", check.intervals);
+  }
+  return check;
+}
+
+// The walks of a run's methods; `proof_file`: where the proof is written, or "".
+ExitStatus CheckWalks(const CheckCommand& command, const std::string& proof_file) {
   const std::string& run = command.trajectory;
   bool proved = true;
   std::vector<std::pair<std::string, checker::TrajectoryCheck>> checks;
-  for (const std::string& method : checker::CertifiedMethods(run, command.method)) {
-    const checker::WalkRun walk = checker::ReadWalkRun(run, method, command.robot, command.scene);
-    InterruptGuard interrupt;
-    std::optional<ProgressBar> bar(std::in_place, "check " + method, command.quiet);
-    checker::TrajectoryCheck check;
-    try {
-      check = checker::CheckWalk(walk.tables, walk.robot, walk.scene, walk.certificate, walk.crouch,
-                                 [&](double done) {
-                                   bar->Update(done);
-                                   return !interrupt.token().stop_requested();
-                                 });
-    } catch (const InputError& error) {
-      std::vector<std::string> told = error.complaints();
-      for (std::string& line : told) line.insert(0, run + ": ");
-      throw InputError(told);
-    }
-    bar.reset();
-    check.not_covered.insert(check.not_covered.end(), walk.not_covered.begin(),
-                             walk.not_covered.end());
-    if (!command.json && !command.quiet) {
-      const std::string title =
-          Formatted("%s, %s: %zu half-steps of %s in %s", run.c_str(), method.c_str(),
-                    walk.tables.half_steps.size(), walk.robot.name.c_str(),
-                    walk.certificate.scene == "none" ? "an empty room" : walk.scene.name.c_str());
-      std::cout << checker::CheckScreen(title, check)
-                << Formatted("\n%td intervals of time\n\n", check.intervals);
-    }
+  const std::vector<std::string> methods = checker::CertifiedMethods(run, command.method);
+  if (!proof_file.empty() && methods.size() > 1) {
+    throw InputError({"--proof: is of one walk (valid with --method: " + Joined(methods) + ")"});
+  }
+  for (const std::string& method : methods) {
+    checker::ProofFile proof;
+    proof.walk = checker::ReadWalkRun(run, method, command.robot, command.scene);
+    proof.run = fs::path(run).lexically_normal().filename().string();
+    proof.method = method;
+    checker::TrajectoryCheck check = CheckOne(command, method, proof.walk, &proof.hints);
     if (check.stopped) return kInterrupted;
     proved = proved && check.proved();
+    if (!proof_file.empty() && proved) {
+      WriteWhole(proof_file, {checker::ProofText(proof, check.not_covered)});
+    }
     checks.emplace_back(method, std::move(check));
   }
   if (command.json) std::cout << checker::CheckJson(run, checks);
   return proved ? kSuccess : kFailed;
 }
 
-}  // namespace
-
-ExitStatus CheckMotion(const CheckCommand& command) {
-  if (fs::is_directory(command.trajectory)) return CheckWalks(command);
-  if (!fs::exists(command.trajectory)) {
-    throw InputError({command.trajectory + ": does not exist (valid: a trajectory, or a run)"});
+// The walk of a proof's file.
+ExitStatus CheckProof(const CheckCommand& command) {
+  const std::string& file = command.trajectory;
+  if (!command.robot.empty() || !command.scene.empty()) {
+    throw InputError({file + ": has robot and scene (valid without --robot and --scene)"});
   }
+  checker::ProofFile proof = checker::ReadProof(file, verify::ReadBytes(file));
+  checker::TrajectoryCheck check = CheckOne(command, proof.method, proof.walk, &proof.hints);
+  if (check.stopped) return kInterrupted;
+  const bool proved = check.proved();
+  if (command.json) std::cout << checker::CheckJson(file, {{proof.method, std::move(check)}});
+  return proved ? kSuccess : kFailed;
+}
+
+ExitStatus CheckAny(const CheckCommand& command, const std::string& proof_file) {
+  if (fs::is_directory(command.trajectory)) return CheckWalks(command, proof_file);
+  if (!fs::exists(command.trajectory)) {
+    throw InputError(
+        {command.trajectory + ": does not exist (valid: a trajectory, a run or a proof)"});
+  }
+  if (!proof_file.empty()) throw InputError({"--proof: is of runs (valid: the folder of a run)"});
   if (command.method) throw InputError({"--method: is of runs (valid: the folder of a run)"});
+  if (fs::path(command.trajectory).extension() == ".json") return CheckProof(command);
   if (command.robot.empty()) {
     throw InputError({"--robot: is missing (valid: URDF, robot file or shipped robot's name)"});
   }
@@ -110,16 +150,21 @@ ExitStatus CheckMotion(const CheckCommand& command) {
   return check.stopped ? kInterrupted : check.proved() ? kSuccess : kFailed;
 }
 
+}  // namespace
+
+ExitStatus CheckMotion(const CheckCommand& command) { return CheckAny(command, ""); }
+
 CommandAction DeclareCheck(CLI::App* app, const Toolbox&) {
   const auto command = std::make_shared<CheckCommand>();
   struct Texts {
-    std::string interpolation;
+    std::string interpolation, proof;
     std::vector<std::string> packages, ignored, contacts;
   };
   const auto texts = std::make_shared<Texts>();
   app->add_option("TRAJECTORY", command->trajectory,
                   "joint trajectory: .csv, or trajectory_msgs/JointTrajectory in .yaml; or the "
-                  "folder of a run, of whose walks is proved what their certificates demand")
+                  "folder of a run, of whose walks is proved what their certificates demand; or "
+                  "the file that --proof wrote of such a walk")
       ->required();
   app->add_option("--method", command->method,
                   "of a run: its method (default: all that are certified)");
@@ -155,6 +200,8 @@ CommandAction DeclareCheck(CLI::App* app, const Toolbox&) {
       ->allow_extra_args(false);
   app->add_option("--package", texts->packages, "NAME=FOLDER of package:// names; repeatable")
       ->allow_extra_args(false);
+  app->add_option("--proof", texts->proof,
+                  "of a run: file to write for who has neither its robot nor its scene (.json)");
   app->add_flag("--quiet", command->quiet, "print nothing but errors");
   app->add_flag("--json", command->json, "print JSON");
   return [app, command, texts] {
@@ -179,7 +226,7 @@ CommandAction DeclareCheck(CLI::App* app, const Toolbox&) {
          {Interpolation::kLinear, Interpolation::kCubic, Interpolation::kQuintic}) {
       if (texts->interpolation == checker::Name(one)) command->interpolation = one;
     }
-    return CheckMotion(*command);
+    return CheckAny(*command, texts->proof);
   };
 }
 

@@ -54,6 +54,7 @@ ALLOWED_IN = {VERIFY: {
     "experiments/verify/certificate_text.h": "the reader of certificates",
     "experiments/verify/csv_text.h": "the reader of a run's tables",
     "experiments/verify/found_inputs.h": "where robot and scene of a run are",
+    "experiments/verify/json_text.h": "the reader of JSON",
     "experiments/verify/run_manifest.h": "the reader of manifests",
     "experiments/verify/walk_text.h": "the reader of the tables that describe a walk",
     "planner/scene/scene.h": "the reader of scenes",
