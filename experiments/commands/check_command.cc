@@ -17,6 +17,7 @@
 #include "experiments/verify/csv_text.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/number_text.h"
+#include "wpg/files/suggestion.h"
 #include "wpg/files/text.h"
 #include "wpg/files/whole_file.h"
 #include "wpg/robot/robot_fields.h"
