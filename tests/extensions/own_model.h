@@ -52,6 +52,12 @@ class PolynomialModel : public MotionModel {
       return time_.Slope(
           {.value = DByShift(0, sigma), .s = DByShift(1, sigma), .ss = DByShift(2, sigma)}, 1.0);
     }
+    ProfileAccuracy Accuracy(double time) const override {
+      return time_.Accuracy(
+          {.error = {.value = Error(0), .s = Error(1), .ss = Error(2)},
+           .most = {.value = Most(0), .s = Most(1), .ss = Most(2), .sss = Most(3)}},
+          time);
+    }
     double SecondBound(double, double) const override {
       return time_.Second(kMost[2] / std::pow(end_ - begin_, 2));
     }
@@ -79,6 +85,18 @@ class PolynomialModel : public MotionModel {
       }
       return value / std::pow(w, n);
     }
+    // At least the largest |D(n)|.
+    double Most(int n) const {
+      double sum = 0.0;
+      for (int k = 9; k >= std::max(5, n); --k) {
+        double c = std::array{126.0, 420.0, 540.0, 315.0, 70.0}[static_cast<size_t>(k - 5)];
+        for (int i = 0; i < n; ++i) c *= k - i;
+        sum += c;
+      }
+      return sum / std::pow(end_ - begin_, n);
+    }
+    // How far D(n) may be off: its terms by 32 roundings each, σ by 16 where the window's ends are.
+    double Error(int n) const { return kRoundoff * (32.0 * Most(n) + 16.0 * Most(n + 1)); }
     // Its derivative with respect to the shift's fraction, which moves the window's inner end out
     // by half of it.
     double DByShift(int n, double sigma) const {
@@ -116,6 +134,14 @@ class PolynomialModel : public MotionModel {
       const double sigma = time_.Of(tau);
       const auto p = [&](int n) { return DByShift(n, sigma) - k_ * DByShift(n + 2, sigma); };
       return time_.Slope({.value = p(0), .s = p(1), .ss = p(2)}, 1.0);
+    }
+    ProfileAccuracy Accuracy(double time) const override {
+      const auto error = [&](int n) { return Error(n) + k_ * Error(n + 2); };
+      const auto most = [&](int n) { return Most(n) + k_ * Most(n + 2); };
+      return time_.Accuracy(
+          {.error = {.value = error(0), .s = error(1), .ss = error(2)},
+           .most = {.value = most(0), .s = most(1), .ss = most(2), .sss = most(3)}},
+          time);
     }
     double SecondBound(double, double) const override {
       const double w = end_ - begin_;
