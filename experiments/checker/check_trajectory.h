@@ -42,7 +42,8 @@ struct TrajectoryFinding {
     kNoStep,
     kZmpRobot,
     kFriction,
-    kTorque
+    kTorque,
+    kFoothold
   };
   Kind kind = Kind::kLimits;  ///< what it is about
   std::string subject;        ///< "elbow", "forearm - shelf"

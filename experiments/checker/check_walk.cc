@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "experiments/checker/interval_proof.h"
+#include "experiments/checker/standing_soles.h"
 #include "experiments/checker/walk_statements.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/text.h"
@@ -21,14 +21,6 @@ constexpr double kFinest = 1e-6, kMissed = 1e-9;
 constexpr std::int64_t kMostIntervals = 2'000'000;  // intervals
 constexpr double kRoundedShift = 1e-12;             // how much shorter a shift may be [s]
 
-// By family; of the last two there are no findings.
-constexpr std::array<Kind, verify::kNumFamilies> kKinds = {
-    Kind::kFloor,       Kind::kFootSpeed, Kind::kFootYawRate,  Kind::kZmp,
-    Kind::kReach,       Kind::kLimits,    Kind::kSpeed,        Kind::kSelfClearance,
-    Kind::kClearance,   Kind::kGround,    Kind::kNoStep,       Kind::kZmpRobot,
-    Kind::kTorque,      Kind::kFriction,  Kind::kAcceleration, Kind::kDoubleSupport,
-    Kind::kLandingSpeed};
-
 // Proves statements on the whole walk, all of those that are open on one interval at once.
 class WalkProof {
  public:
@@ -41,7 +33,7 @@ class WalkProof {
         check_(*check),
         solvers_{LegSolver(robot.legs[0]), LegSolver(robot.legs[1])} {
     for (const WalkStatement& statement : statements_.all()) {
-      findings_.push_back({.kind = Nth(kKinds, statement.family),
+      findings_.push_back({.kind = KindOf(statement.family),
                            .subject = statement.subject,
                            .proved = true,
                            .demanded = statement.demanded,
@@ -125,56 +117,7 @@ void AddTimes(const WalkMotion& motion, double demanded, TrajectoryCheck* check)
   }
 }
 
-ConvexBody FlatBody(const Eigen::Matrix2Xd& polygon) {
-  ConvexBody body;
-  body.vertices.setZero(3, polygon.cols());
-  body.vertices.topRows(2) = polygon;
-  body.center << polygon.rowwise().mean(), 0.0;
-  for (Eigen::Index i = 0; i < polygon.cols(); ++i) {
-    body.radius = std::max(body.radius, (body.vertices.col(i) - body.center).norm());
-  }
-  body.radius *= 1.0 + 1e-12;
-  return body;
-}
-
-// Each sole where it stands at some time, and each area, by its hull.
-void AddSteps(const WalkMotion& motion, const RobotModel& robot, const Scene& scene,
-              double demanded, TrajectoryCheck* check) {
-  const ConvexBody outline = FlatBody(robot.sole_outline);
-  std::vector<std::pair<double, size_t>> places = {{0.0, 0}, {0.0, 1}};  // time, side
-  for (const WalkMotion::Flight& flight : motion.flights()) {
-    places.emplace_back(std::min(flight.end, motion.end()), flight.side);
-  }
-  for (size_t k = 0; k < scene.no_step.size(); ++k) {
-    const ConvexBody area = FlatBody(scene.no_step[k]);
-    for (const auto& [t, side] : places) {
-      const WalkNumbers x = motion.On(t, t);
-      const Curve* const sole = &x[kSole + 4 * side];
-      FrameIn<Curve> X_WF =
-          TurnAbout(Eigen::Vector3d::UnitZ(), SinCosOf(sole[3])[0], SinCosOf(sole[3])[1]);
-      X_WF.p = {sole[0], sole[1], 0.0};
-      const VectorIn<Curve> moved = X_WF * VectorOf<Curve>(outline.center);
-      const Vector center = {moved[0].over[0], moved[1].over[0], 0.0};
-      const Vector at_rest = VectorOf(area.center);
-      Eigen::Vector3d direction{0, 0, 0};
-      const Kept kept = WalkStatements::Apart({area, FrameIn<Curve>(), at_rest},
-                                              {outline, X_WF, center}, demanded, &direction);
-      check->findings.push_back({.kind = Kind::kNoStep,
-                                 .subject = Formatted("sole at %.3f s - area %zu", t, k + 1),
-                                 .proved = kept.bound > 0.0 && kept.bound >= demanded,
-                                 .demanded = demanded,
-                                 .least = kept.bound,
-                                 .at = t});
-    }
-  }
-}
-
-void RefuseUnknown(const RobotModel& robot, const Scene& scene,
-                   const verify::CertificateText& certificate) {
-  const auto level = scene.ground->OnlyLevel();
-  if (!level || level->height != 0.0 || !scene.ground->Solids().empty()) {
-    throw InputError({"the scene has levels (valid here: a level floor at z = 0)"});
-  }
+void RefuseUnknown(const RobotModel& robot, const verify::CertificateText& certificate) {
   if (certificate.tube) {
     throw InputError({"the certificate is of a tube (valid here: of the walk alone)"});
   }
@@ -187,23 +130,33 @@ void RefuseUnknown(const RobotModel& robot, const Scene& scene,
 
 }  // namespace
 
+Kind KindOf(verify::Family family) {
+  constexpr Kind kKinds[] = {Kind::kFloor,         Kind::kFootSpeed,     Kind::kFootYawRate,
+                             Kind::kZmp,           Kind::kReach,         Kind::kLimits,
+                             Kind::kSpeed,         Kind::kSelfClearance, Kind::kClearance,
+                             Kind::kGround,        Kind::kNoStep,        Kind::kZmpRobot,
+                             Kind::kTorque,        Kind::kFriction,      Kind::kAcceleration,
+                             Kind::kDoubleSupport, Kind::kLandingSpeed,  Kind::kFoothold};
+  return kKinds[family];
+}
+
 TrajectoryCheck CheckWalk(const WalkTables& tables, const RobotModel& robot, const Scene& scene,
                           const verify::CertificateText& certificate, double crouch,
-                          const std::function<bool(double done)>& progress) {
-  RefuseUnknown(robot, scene, certificate);
+                          const std::function<bool(double done)>& progress, double from) {
+  RefuseUnknown(robot, certificate);
   TrajectoryCheck check;
   const WalkMotion motion(tables);
   WalkStatements statements(robot, scene, certificate);
   const auto demanded = [&](verify::Family family) { return Nth(certificate.demanded, family); };
   AddTimes(motion, demanded(verify::kDoubleSupport), &check);
-  if (demanded(verify::kNoStep) != verify::kNotDemanded) {
-    AddSteps(motion, robot, scene, demanded(verify::kNoStep), &check);
-  }
+  AddStandingSoles(motion, robot, scene, certificate, from, &check);
   WalkProof proof(robot, motion, crouch, &statements, &check);
-  std::vector<double> knots = motion.knots();
-  for (const double t : statements.WaypointTimes()) {
+  std::vector<double> knots = motion.knots(), waypoints = statements.WaypointTimes();
+  waypoints.push_back(from);
+  for (const double t : waypoints) {
     if (t > 0.0 && t < motion.end()) knots.push_back(t);
   }
+  std::erase_if(knots, [&](double t) { return t < from; });
   std::ranges::sort(knots);
   for (size_t i = 0; i + 1 < knots.size() && !check.stopped; ++i) {
     proof.Prove(knots[i], knots[i + 1]);
@@ -212,9 +165,9 @@ TrajectoryCheck CheckWalk(const WalkTables& tables, const RobotModel& robot, con
   proof.Finish();
   for (size_t f = 0; f < verify::kNumFamilies; ++f) {
     const auto family = static_cast<verify::Family>(f);
-    const bool known = family != verify::kFoothold && family != verify::kOwn;
+    const bool known = family != verify::kOwn;
     if (demanded(family) == verify::kNotDemanded ||
-        (known && std::ranges::count(check.findings, kKinds[f], &TrajectoryFinding::kind))) {
+        (known && std::ranges::count(check.findings, KindOf(family), &TrajectoryFinding::kind))) {
       continue;
     }
     check.not_covered.push_back(

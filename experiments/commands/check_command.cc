@@ -92,27 +92,28 @@ ExitStatus CheckWalks(const CheckCommand& command) {
   for (const std::string& method : checker::CertifiedMethods(run, command.method)) {
     const checker::WalkRun walk = checker::ReadWalkRun(run, method, command.robot, command.scene);
     InterruptGuard interrupt;
-    std::optional<ProgressBar> bar(std::in_place, "check " + method, command.quiet);
+    std::optional<ProgressBar> bar(std::in_place, "check " + (method.empty() ? "episode" : method),
+                                   command.quiet);
     checker::TrajectoryCheck check;
     try {
-      check = checker::CheckWalk(walk.tables, walk.robot, walk.scene, walk.certificate, walk.crouch,
-                                 [&](double done) {
-                                   bar->Update(done);
-                                   return !interrupt.token().stop_requested();
-                                 });
+      check = checker::CheckRun(walk, [&](double done) {
+        bar->Update(done);
+        return !interrupt.token().stop_requested();
+      });
     } catch (const InputError& error) {
       std::vector<std::string> told = error.complaints();
       for (std::string& line : told) line.insert(0, run + ": ");
       throw InputError(told);
     }
     bar.reset();
-    check.not_covered.insert(check.not_covered.end(), walk.not_covered.begin(),
-                             walk.not_covered.end());
     if (!command.json && !command.quiet) {
-      const std::string title =
-          Formatted("%s, %s: %zu half-steps of %s in %s", run.c_str(), method.c_str(),
-                    walk.tables.half_steps.size(), walk.robot.name.c_str(),
-                    walk.certificate.scene == "none" ? "an empty room" : walk.scene.name.c_str());
+      const std::string place = walk.scene.name == "none" ? "an empty room" : walk.scene.name;
+      std::string title = run + (method.empty() ? "" : ", " + method) +
+                          Formatted(": %zu half-steps of ", walk.tables.half_steps.size()) +
+                          walk.robot.name + " in " + place;
+      if (!walk.branches.empty()) {
+        title += Formatted(", %zu stop branches", walk.branches.size());
+      }
       std::cout << checker::CheckScreen(title, check)
                 << Formatted("\n%td intervals of time\n\n", check.intervals);
     }
@@ -177,9 +178,10 @@ CommandAction DeclareCheck(CLI::App* app, const Toolbox&) {
     std::vector<std::string> packages, ignored;
   };
   const auto texts = std::make_shared<Texts>();
-  app->add_option("TRAJECTORY", command->trajectory,
-                  "joint trajectory: .csv, or trajectory_msgs/JointTrajectory in .yaml; or the "
-                  "folder of a run, of whose walks is proved what their certificates demand")
+  app->add_option(
+         "TRAJECTORY", command->trajectory,
+         "joint trajectory: .csv, or trajectory_msgs/JointTrajectory in .yaml; or the "
+         "folder of a run or an episode, of whose walks is proved what is demanded of them")
       ->required();
   app->add_option("--method", command->method,
                   "of a run: its method (default: all that are certified)");
