@@ -15,7 +15,6 @@ namespace {
 
 using Kind = TrajectoryFinding::Kind;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // An interval is not halved below this [s], nor where its bound is as near to its value.
 constexpr double kFinest = 1e-6, kMissed = 1e-9;
 constexpr std::int64_t kMostIntervals = 2'000'000;  // intervals

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "experiments/checker/walk_statements.h"
@@ -16,7 +15,6 @@ using Eigen::Matrix2Xd;
 using Eigen::Vector2d;
 using Kind = TrajectoryFinding::Kind;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Heights are whole nanometres; gaps that are no wider are none [m].
 constexpr double kSameHeight = 0.5e-9, kGap = 2e-9;
 // More than all rounding of corners below 10⁵ m in doubles [m].

@@ -1,14 +1,11 @@
 // What the ground has to give: friction, and joints' torques.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "experiments/checker/walk_statements.h"
 
 namespace halfstep::checker {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 using Direction = std::array<Interval, 2>;
 

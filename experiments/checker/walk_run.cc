@@ -46,6 +46,17 @@ std::vector<Interval> StartsOf(const std::vector<verify::HalfStepRow>& rows,
 
 }  // namespace
 
+std::vector<std::string> SentencesOf(const std::vector<verify::NotCoveredItem>& not_covered) {
+  std::vector<std::string> sentences;
+  for (const verify::NotCoveredItem& item : not_covered) {
+    if (item.kind != "pair") sentences.push_back(item.sentence);
+  }
+  if (const size_t pairs = not_covered.size() - sentences.size(); pairs > 0) {
+    sentences.push_back(Formatted("%zu pairs of bodies that the files list as not watched", pairs));
+  }
+  return sentences;
+}
+
 std::vector<std::string> CertifiedMethods(const std::string& run,
                                           const std::optional<std::string>& method) {
   const fs::path manifest = fs::path(run) / "manifest.json";
@@ -117,16 +128,7 @@ WalkRun ReadWalkRun(const std::string& run, const std::string& method,
     walk.branches.push_back(
         {Formatted("stopped after half-step %zu", k + 1), k, walk.tables.starts[k + 1].lo});
   }
-  const auto count = [&](const char* kind) {
-    return std::ranges::count(walk.certificate.not_covered, kind, &verify::NotCoveredItem::kind);
-  };
-  for (const verify::NotCoveredItem& item : walk.certificate.not_covered) {
-    if (item.kind != "pair") walk.not_covered.push_back(item.sentence);
-  }
-  if (const auto pairs = count("pair"); pairs > 0) {
-    walk.not_covered.push_back(
-        Formatted("%td pairs of bodies that certificate.json lists as not watched", pairs));
-  }
+  walk.not_covered = SentencesOf(walk.certificate.not_covered);
   walk.not_covered.push_back(
       "whether the files of the run belong together, and trajectory.csv (`halfstep verify`)");
   return walk;

@@ -51,6 +51,9 @@ WalkRun ReadWalkRun(const std::string& run, const std::string& method,
 WalkRun ReadEpisodeRun(const std::string& folder, const std::string& robot_file,
                        const std::string& scene_file);
 
+/// What files say that nothing is claimed of; pairs of bodies in one sentence.
+std::vector<std::string> SentencesOf(const std::vector<verify::NotCoveredItem>& not_covered);
+
 /// CheckWalk of the walk and of its branches: of each statement what is kept least, or missed.
 TrajectoryCheck CheckRun(const WalkRun& run, const std::function<bool(double done)>& progress = {});
 

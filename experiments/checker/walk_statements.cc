@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "experiments/checker/check_trajectory.h"
 #include "experiments/checker/separation.h"
@@ -14,7 +13,6 @@ namespace {
 
 using verify::Family;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr Kept kDoesNotCount = {kInfinity, kInfinity};
 constexpr double kOnFloor = 1e-8;  // soles are no lower than what bears them, but for rounding [m]
 constexpr double kSinking = 0.01;  // height below which the limit of sinking is its own [m]

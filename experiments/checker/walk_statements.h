@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,8 @@
 #include "planner/scene/scene.h"
 
 namespace halfstep::checker {
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();  ///< of margins
 
 /// What is kept of a margin on an interval of time.
 struct Kept {
