@@ -163,7 +163,11 @@ double InsideLevel(const Standing& sole, const Matrix2Xd& outline, const Ground&
           std::min(in_the_way, FlatGap(PrismOver(solid.polygon), flat, sole.X_WF, demanded));
     }
   }
-  if (least < demanded && Hold(tops, 0, Around(sole, outline, demanded))) least = demanded;
+  // What is thinner than a gap may lie beyond a border, so more is asked for.
+  const double more = demanded + 2.0 * kGap;
+  if (least < demanded && tops.size() > 1 && Hold(tops, 0, Around(sole, outline, more))) {
+    least = demanded;
+  }
   return std::min(least, in_the_way);
 }
 

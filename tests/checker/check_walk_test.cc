@@ -83,7 +83,7 @@ scene: scene.yaml
 footsteps:
   - {foot: right, x_m: 0.28, y_m: -0.085}
   - {foot: left, x_m: 0.28, y_m: 0.085}
-half_step: {duration_s: 2, via_height_m: 0.18, foot_delay: 0.15}
+half_step: {duration_s: 2, via_height_m: 0.18, foot_delay: 0.15, crouch_m: 0.01}
 )",
                            kTreads);
   return run;
@@ -96,7 +96,8 @@ struct Moving {
         motion(of.tables),
         solvers{LegSolver(of.robot.legs[0]), LegSolver(of.robot.legs[1])} {}
   WalkState On(double from, double to) const {
-    return {walk.robot, solvers, motion, Interval(walk.robot.waist_height), from, to};
+    return {walk.robot, solvers, motion, Interval(walk.robot.waist_height) - Interval(walk.crouch),
+            from,       to};
   }
 
   const WalkRun& walk;
@@ -215,7 +216,7 @@ TEST(CheckWalk, MotionIsThatOfTheTrajectory) {
       expect(x[kCom + 1].at[2], "com_ay_m_s2");
       expect(x[kZmp + 1].over[0], "zmp_y_m");
       expect(x[kYaw].over[0], "waist_yaw_rad");
-      EXPECT_NEAR(x[kWaistZ].over[0].Middle() + run->walk.robot.waist_height,
+      EXPECT_NEAR(x[kWaistZ].over[0].Middle() + run->walk.robot.waist_height - run->walk.crouch,
                   rows.At(i, "waist_z_m"), 1e-9);
       for (size_t side = 0; side < 2; ++side) {
         const std::string foot = side == 0 ? "left_foot_" : "right_foot_";
