@@ -25,6 +25,7 @@ struct Standing {
   FrameIn<Curve> X_WF;  // seen from above
   double z = 0.0;       // [m]
   double at = 0.0;      // [s]
+  size_t side = 0;      // Index(Side)
 };
 
 std::vector<Standing> StandingFrom(const WalkMotion& motion, double from) {
@@ -36,7 +37,8 @@ std::vector<Standing> StandingFrom(const WalkMotion& motion, double from) {
       const WalkNumbers x = motion.On(since, since);
       const Curve* const sole = &x[kSole + 4 * side];
       const auto [s, c] = SinCosOf(sole[3]);
-      Standing standing{TurnAbout(Eigen::Vector3d::UnitZ(), s, c), sole[2].at[0].Middle(), since};
+      Standing standing{TurnAbout(Eigen::Vector3d::UnitZ(), s, c), sole[2].at[0].Middle(), since,
+                        side};
       standing.X_WF.p = {sole[0], sole[1], 0.0};
       all.push_back(standing);
     };
@@ -180,12 +182,14 @@ void AddStandingSoles(const WalkMotion& motion, const RobotModel& robot, const S
   const ConvexBody outline = PrismOver(robot.sole_outline);
   const auto add = [&](Kind kind, const std::string& what, const Standing& sole, double demanded,
                        double least) {
-    check->findings.push_back({.kind = kind,
-                               .subject = Formatted("sole at %.3f s", sole.at) + what,
-                               .proved = least > 0.0 && least >= demanded,
-                               .demanded = demanded,
-                               .least = least,
-                               .at = sole.at});
+    check->findings.push_back(
+        {.kind = kind,
+         .subject =
+             Formatted("%s sole at %.3f s", sole.side == 0 ? "left" : "right", sole.at) + what,
+         .proved = least > 0.0 && least >= demanded,
+         .demanded = demanded,
+         .least = least,
+         .at = sole.at});
   };
   const double apart = certificate.demanded[verify::kNoStep];
   for (size_t k = 0; apart != verify::kNotDemanded && k < scene.no_step.size(); ++k) {
