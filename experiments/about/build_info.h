@@ -7,7 +7,7 @@
 namespace halfstep {
 
 // What the running build is of, as manifests and --version tell it.
-extern const std::string_view kVersion;    ///< "0.2.0"
+extern const std::string_view kVersion;    ///< "0.3.0"
 extern const std::string_view kCommit;     ///< of git, "-dirty" where files differ; or "unknown"
 extern const std::string_view kBuildType;  ///< "Release"
 extern const std::string_view kCompiler;   ///< its name and version

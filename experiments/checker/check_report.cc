@@ -35,10 +35,15 @@ constexpr KindText kTexts[] = {{Kind::kContact, "one foot in the air", "s", 1.0}
                                {Kind::kFoothold, "footholds", "mm", 1e3},
                                {Kind::kZmpRobot, "zmp of the robot", "mm", 1e3},
                                {Kind::kFriction, "friction", "", 1.0},
-                               {Kind::kTorque, "torque", "N m", 1.0}};
+                               {Kind::kTorque, "torque", "N m", 1.0},
+                               {Kind::kStill, "contact, distance", "mm", 1e3},
+                               {Kind::kTilt, "contact, angle", "rad", 1.0}};
 
-std::string Valued(double x, const KindText& text) {
-  return Formatted("%.4g", text.scale * x) + (text.unit[0] == '\0' ? "" : " ") + text.unit;
+// `slides`: of a sliding joint.
+std::string Valued(double x, const KindText& text, bool slides = false) {
+  std::string unit = text.unit;
+  if (slides) unit = unit == "N m" ? "N" : "m" + unit.substr(3);
+  return Formatted("%.4g", text.scale * x) + (unit.empty() ? "" : " ") + unit;
 }
 
 std::string MissedText(const TrajectoryFinding& finding, const KindText& text) {
@@ -50,12 +55,17 @@ std::string MissedText(const TrajectoryFinding& finding, const KindText& text) {
     return Formatted("%s at %.4f s: nothing is known there: out of reach, or singular",
                      finding.subject.c_str(), finding.at);
   }
+  if (finding.hint_missing) {
+    return Formatted("%s at %.4f s: hint missing: no direction is told that separates them there",
+                     finding.subject.c_str(), finding.at);
+  }
   std::string said = Formatted("%s at %.4f s: ", finding.subject.c_str(), finding.at) +
-                     Valued(finding.least, text) +
+                     Valued(finding.least, text, finding.slides) +
                      Formatted(", %.4g demanded", text.scale * finding.demanded);
   if (finding.at_knots && *finding.at_knots >= finding.demanded) {
-    said += "; no knot shows it (" + Valued(*finding.at_knots, text) + " there)";
+    said += "; no knot shows it (" + Valued(*finding.at_knots, text, finding.slides) + " there)";
   }
+  if (finding.holds) said += "; proved is " + Valued(*finding.holds, text) + " as the limit";
   return said;
 }
 
@@ -78,7 +88,8 @@ std::string KindScreen(const TrajectoryCheck& check, const KindText& text) {
   if (missed == 0) {
     head += Formatted("proved for all t: %d", subjects);
     if (!std::isinf(nearest->least)) {
-      head += ", each by " + Valued(nearest->least, text) + " or more (" + nearest->subject + ")";
+      head += ", each by " + Valued(nearest->least, text, nearest->slides) + " or more (" +
+              nearest->subject + ")";
       if (nearest->demanded != 0.0) {
         head += Formatted("; %.4g demanded", text.scale * nearest->demanded);
       }
@@ -103,6 +114,8 @@ Json JsonOf(Json json, const TrajectoryCheck& check) {
                           {"least", number(finding.least)},
                           {"at_s", finding.at}});
       if (finding.at_knots) findings.back()["at_knots"] = number(*finding.at_knots);
+      if (finding.holds) findings.back()["holds"] = number(*finding.holds);
+      if (finding.hint_missing) findings.back()["hint_missing"] = true;
     }
   }
   json.update({{"proved", check.proved()},
@@ -116,9 +129,9 @@ Json JsonOf(Json json, const TrajectoryCheck& check) {
 }  // namespace
 
 std::string TitleOf(const Trajectory& trajectory) {
-  return Formatted("%s: %zu joints, %zu knots, %.4g s, %s between knots", trajectory.file.c_str(),
-                   trajectory.joints.size(), trajectory.times.size(),
-                   trajectory.times.back() - trajectory.times.front(),
+  return Formatted("%s: %zu joints%s, %zu knots, %.4g s, %s between knots", trajectory.file.c_str(),
+                   trajectory.joints.size(), trajectory.base.size() > 0 ? " and the root" : "",
+                   trajectory.times.size(), trajectory.times.back() - trajectory.times.front(),
                    Name(trajectory.interpolation));
 }
 

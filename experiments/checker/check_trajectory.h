@@ -17,13 +17,24 @@ struct TrajectoryDemands {
   double self_clearance = 0.0;              ///< between bodies of the robot [m] ≥ 0
   double clearance = 0.0;                   ///< from obstacles [m] ≥ 0
   std::optional<double> acceleration = {};  ///< of every joint, at most [rad/s²]; none: not asked
+  std::optional<double> ground = {};        ///< no body lower below z = 0 than this [m] ≥ 0
+  /// A link that is said to stand still.
+  struct Contact {
+    std::string link;                 ///< its name
+    std::optional<double> from = {};  ///< [s]; none: from the first knot on
+    std::optional<double> to = {};    ///< [s]; none: to the last one
+  };
+  std::vector<Contact> contacts = {};
+  /// How far a corner of the box around a link's bodies is at most from where it is at `from` [m].
+  double contact_distance = 1e-3;
+  double contact_angle = 0.01;  ///< by how much it is turned at most from there [rad]
   /// Pairs of links of which nothing is asked, beside neighbours.
   std::vector<std::pair<std::string, std::string>> ignored = {};
 };
 
 /// A statement about one subject: for all t ∈ [0, end], or not.
 struct TrajectoryFinding {
-  /// What statements are about. Those after kClearance are of walks alone.
+  /// What statements are about. Those from kContact to kLandingSpeed, and others, are of walks.
   enum class Kind {
     kLimits,
     kSpeed,
@@ -43,6 +54,8 @@ struct TrajectoryFinding {
     kZmpRobot,
     kFriction,
     kTorque,
+    kStill,
+    kTilt,
     kFoothold
   };
   Kind kind = Kind::kLimits;  ///< what it is about
@@ -55,6 +68,10 @@ struct TrajectoryFinding {
   /// Of what is not proved: the least at the trajectory's own knots, as dense sampling at its rate
   /// would see it.
   std::optional<double> at_knots = {};
+  /// Of a contact or the ground that is not proved: the least limit that is, for all t [m, rad].
+  std::optional<double> holds = {};
+  bool slides = false;        ///< it is about a joint that slides: in m, not rad
+  bool hint_missing = false;  ///< not proved, for the proof tells no direction there
 };
 
 /// All findings, and what was not asked.
@@ -72,10 +89,11 @@ struct TrajectoryCheck {
 ConvexBody BodyOfObstacle(const Obstacle& obstacle);
 
 /// Looks at every statement, in interval arithmetic. On [m − h, m + h] a pair of bodies keeps at
-/// least its gap along a direction at m less Σ |q_j(t) − q_j(m)|·reach_j (JointedRobot::Levers);
-/// where that is not enough the interval is halved (Prove). `scene`: its obstacles, at rest; a mesh
-/// counts as its convex hull. `progress(done)`, done ∈ [0, 1], says whether to go on. Throws
-/// InputError for obstacles that move or are clouds, and for names in `ignored` that are no links.
+/// least its gap along a direction at m less how far both may move (RobotMotion::Moved); where that
+/// is not enough the interval is halved (Prove). Contacts, the ground and torques are looked at by
+/// frames as functions of time (RobotMotion::On). `scene`: its obstacles, at rest; a mesh counts as
+/// its convex hull. `progress(done)`, done ∈ [0, 1], says whether to go on. Throws InputError for
+/// obstacles that move or are clouds, and for links and times of demands that are not there.
 /// Source: experiments/check.md.
 TrajectoryCheck CheckTrajectory(const Trajectory& trajectory, const JointedRobot& robot,
                                 const Scene& scene, const TrajectoryDemands& demands,

@@ -24,11 +24,12 @@ constexpr double kRoundedShift = 1e-12;             // how much shorter a shift 
 class WalkProof {
  public:
   WalkProof(const RobotModel& robot, const WalkMotion& motion, double crouch,
-            WalkStatements* statements, TrajectoryCheck* check)
+            WalkStatements* statements, ProofHints* hints, TrajectoryCheck* check)
       : robot_(robot),
         motion_(motion),
         height_(Interval(robot.waist_height) - Interval(crouch)),
         statements_(*statements),
+        hints_(*hints),
         check_(*check),
         solvers_{LegSolver(robot.legs[0]), LegSolver(robot.legs[1])} {
     for (const WalkStatement& statement : statements_.all()) {
@@ -37,7 +38,9 @@ class WalkProof {
                            .proved = true,
                            .demanded = statement.demanded,
                            .least = kInfinity});
+      directions_.push_back(&hints->directions[{statement.family, statement.a, statement.b}]);
     }
+    for (WalkStatement& statement : statements_.all()) statement.told = hints->told;
   }
 
   void Prove(double from, double to) {
@@ -54,7 +57,10 @@ class WalkProof {
     ++check_.intervals;
     WalkState state(robot_, solvers_, motion_, height_, from, to);
     std::erase_if(open, [&](size_t i) { return IsSettled(i, from, to, &state); });
-    if (open.empty()) return;
+    if (open.empty()) {
+      if (!hints_.told) hints_.times.push_back(to);
+      return;
+    }
     const double middle = state.middle();
     Look(from, middle, open);
     Look(middle, to, std::move(open));
@@ -65,11 +71,14 @@ class WalkProof {
     TrajectoryFinding& finding = findings_[i];
     if (!finding.proved) return true;
     Kept kept{-kInfinity, std::numeric_limits<double>::quiet_NaN()};
+    WalkStatement& statement = statements_.all()[i];
+    if (hints_.told) statement.direction = ProofHints::At(*directions_[i], state->middle());
     try {
-      kept = statements_.Look(&statements_.all()[i], state);
+      kept = statements_.Look(&statement, state);
     } catch (const NotDefined&) {
     }
     if (kept.bound >= finding.demanded) {
+      if (!hints_.told) ProofHints::Note(from, statement.direction, directions_[i]);
       if (kept.bound < finding.least) {
         finding.least = kept.bound;
         finding.at = state->middle();
@@ -81,6 +90,7 @@ class WalkProof {
     if (finding.proved) return false;
     finding.least = kept.value;
     finding.at = state->middle();
+    finding.hint_missing = kept.hint_missing;
     return true;
   }
 
@@ -88,9 +98,11 @@ class WalkProof {
   const WalkMotion& motion_;
   Interval height_;
   WalkStatements& statements_;
+  ProofHints& hints_;
   TrajectoryCheck& check_;
   std::array<LegSolver, 2> solvers_;
   std::vector<TrajectoryFinding> findings_;
+  std::vector<ProofHints::Directions*> directions_;
 };
 
 // What is known without looking at intervals: at most one foot is in the air, and how long ZMPs
@@ -141,15 +153,18 @@ Kind KindOf(verify::Family family) {
 
 TrajectoryCheck CheckWalk(const WalkTables& tables, const RobotModel& robot, const Scene& scene,
                           const verify::CertificateText& certificate, double crouch,
-                          const std::function<bool(double done)>& progress, double from) {
+                          const std::function<bool(double done)>& progress, ProofHints* hints,
+                          double from) {
   RefuseUnknown(robot, certificate);
   TrajectoryCheck check;
+  ProofHints found;
+  if (hints == nullptr) hints = &found;
   const WalkMotion motion(tables);
   WalkStatements statements(robot, scene, certificate);
   const auto demanded = [&](verify::Family family) { return Nth(certificate.demanded, family); };
   AddTimes(motion, demanded(verify::kDoubleSupport), &check);
-  AddStandingSoles(motion, robot, scene, certificate, from, &check);
-  WalkProof proof(robot, motion, crouch, &statements, &check);
+  AddStandingSoles(motion, robot, scene, certificate, from, hints, &check);
+  WalkProof proof(robot, motion, crouch, &statements, hints, &check);
   std::vector<double> knots = motion.knots(), waypoints = statements.WaypointTimes();
   waypoints.push_back(from);
   for (const double t : waypoints) {
@@ -157,6 +172,7 @@ TrajectoryCheck CheckWalk(const WalkTables& tables, const RobotModel& robot, con
   }
   std::erase_if(knots, [&](double t) { return t < from; });
   std::ranges::sort(knots);
+  if (!hints->told && !knots.empty()) hints->times.push_back(knots.front());
   for (size_t i = 0; i + 1 < knots.size() && !check.stopped; ++i) {
     proof.Prove(knots[i], knots[i + 1]);
     check.stopped = progress && !progress(knots[i + 1] / motion.end());

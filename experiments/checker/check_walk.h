@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "experiments/checker/check_trajectory.h"
+#include "experiments/checker/proof_hints.h"
 #include "experiments/checker/walk_motion.h"
 #include "experiments/verify/certificate_text.h"
 #include "planner/scene/scene.h"
@@ -16,12 +17,13 @@ namespace halfstep::checker {
 /// halved where the bounds of a statement do not suffice, down to 1 µs. Findings have the families
 /// of smoothing/README.md, "Margins"; what is demanded of a family that is not looked at is among
 /// `not_covered`. `crouch`: how far the waist is kept below where the robot file has it [m].
-/// `progress(done)`, done ∈ [0, 1], says whether to go on. Throws InputError for walks, robots and
-/// scenes of which nothing can be said here: offset legs, tubes, maps. Source:
-/// experiments/check.md.
+/// `progress(done)`, done ∈ [0, 1], says whether to go on. `hints`: where directions that were
+/// found are noted, or those that are told. Throws InputError for walks, robots and scenes of which
+/// nothing can be said here: offset legs, tubes, maps. Source: experiments/check.md.
 TrajectoryCheck CheckWalk(const WalkTables& tables, const RobotModel& robot, const Scene& scene,
                           const verify::CertificateText& certificate, double crouch,
-                          const std::function<bool(double done)>& progress = {}, double from = 0.0);
+                          const std::function<bool(double done)>& progress = {},
+                          ProofHints* hints = nullptr, double from = 0.0);
 
 /// What findings of a family are about. Precondition: it is not kOwn.
 TrajectoryFinding::Kind KindOf(verify::Family family);

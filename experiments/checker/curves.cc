@@ -60,26 +60,35 @@ Control Positions(const Trajectory& of, Eigen::Index j, Eigen::Index k, const In
 
 Curves::Curves(const Trajectory& trajectory)
     : times_(trajectory.times), jumps_(trajectory.interpolation == Interpolation::kLinear) {
-  for (Eigen::Index j = 0; j < trajectory.q.rows(); ++j) {
+  const Eigen::Index joints = trajectory.q.rows();
+  for (Eigen::Index j = 0; j < joints + trajectory.base.rows(); ++j) {
     std::vector<Piece>& pieces = pieces_.emplace_back();
-    std::vector<std::array<Interval, 3>> hulls;
+    std::vector<std::array<Interval, kOrders>> hulls;
     for (size_t k = 0; k + 1 < times_.size(); ++k) {
       const Interval h = Interval(times_[k + 1]) - Interval(times_[k]);
       Piece& piece = pieces.emplace_back();
-      piece.control[0] = Positions(trajectory, j, static_cast<Eigen::Index>(k), h);
-      piece.control[1] = Derivative(piece.control[0], h);
-      piece.control[2] = Derivative(piece.control[1], h);
-      for (size_t order = 0; order < 3; ++order) piece.hull[order] = HullOf(piece.control[order]);
+      const auto knot = static_cast<Eigen::Index>(k);
+      if (j < joints) {
+        piece.control[0] = Positions(trajectory, j, knot, h);
+      } else {
+        piece.control[0] = {trajectory.base(j - joints, knot),
+                            trajectory.base(j - joints, knot + 1)};
+      }
+      for (size_t order = 1; order < kOrders; ++order) {
+        piece.control[order] = Derivative(piece.control[order - 1], h);
+      }
+      for (size_t order = 0; order < kOrders; ++order)
+        piece.hull[order] = HullOf(piece.control[order]);
       hulls.push_back(piece.hull);
     }
-    std::vector<std::vector<std::array<Interval, 3>>>& levels = hulls_.emplace_back();
+    std::vector<std::vector<std::array<Interval, kOrders>>>& levels = hulls_.emplace_back();
     levels.push_back(std::move(hulls));
     while (levels.back().size() > 1) {
-      std::vector<std::array<Interval, 3>> joined;
+      std::vector<std::array<Interval, kOrders>> joined;
       for (size_t i = 0; i < levels.back().size(); i += 2) {
-        std::array<Interval, 3> both = levels.back()[i];
+        std::array<Interval, kOrders> both = levels.back()[i];
         if (i + 1 < levels.back().size()) {
-          for (size_t order = 0; order < 3; ++order) {
+          for (size_t order = 0; order < kOrders; ++order) {
             both[order] = Hull(both[order], levels.back()[i + 1][order]);
           }
         }
@@ -133,6 +142,16 @@ Interval Curves::Range(int joint, int order, double from, double to) const {
     i += size_t{1} << level;
   }
   return range;
+}
+
+Curve Curves::On(int joint, double from, double to) const {
+  const double middle = 0.5 * from + 0.5 * to;
+  Curve curve;
+  curve.h = Interval(from, to).FarthestFrom(middle);
+  for (int order = 0; order < 3; ++order)
+    Nth(curve.at, order) = Range(joint, order, middle, middle);
+  curve.over[3] = Range(joint, 3, from, to);
+  return curve.Enclose();
 }
 
 Interval Curves::Jump(int joint, int knot) const {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "experiments/checker/interval.h"
+#include "experiments/checker/taylor.h"
 #include "experiments/checker/trajectory.h"
 
 namespace halfstep::checker {
@@ -16,33 +17,35 @@ namespace halfstep::checker {
 /// subdivision. The bounds of linear pieces are the knots themselves, without rounding.
 class Curves {
  public:
-  /// Of all joints of a trajectory.
+  /// Of all joints of a trajectory, and after these the seven numbers of its base, if it has one.
   explicit Curves(const Trajectory& trajectory);
 
-  int joints() const { return static_cast<int>(pieces_.size()); }  ///< how many
-  double begin() const { return times_.front(); }                  ///< the first knot [s]
-  double end() const { return times_.back(); }                     ///< the last knot [s]
-  const std::vector<double>& times() const { return times_; }      ///< of all knots [s]
+  double begin() const { return times_.front(); }              ///< the first knot [s]
+  double end() const { return times_.back(); }                 ///< the last knot [s]
+  const std::vector<double>& times() const { return times_; }  ///< of all knots [s]
 
-  /// Bounds of the position (order 0), its first or its second derivative for all t ∈ [from, to],
-  /// both within [begin, end]. At a knot the derivatives are those of the pieces on both sides. Of
-  /// linear pieces the second one is 0 (see Jump).
+  /// Bounds of the position (order 0) or of its derivatives up to the third one for all
+  /// t ∈ [from, to], both within [begin, end]. At a knot the derivatives are those of the pieces on
+  /// both sides. Of linear pieces the second one is 0 (see Jump).
   Interval Range(int joint, int order, double from, double to) const;
+  /// The position on [from, to]. Precondition: no knot lies between both.
+  Curve On(int joint, double from, double to) const;
   /// How far the velocity jumps at a knot between two pieces [rad/s]: 0 where it is continuous by
   /// construction.
   Interval Jump(int joint, int knot) const;
 
  private:
+  static constexpr size_t kOrders = 4;
   struct Piece {
-    std::array<std::vector<Interval>, 3> control;  // b_i of each order
-    std::array<Interval, 3> hull;
+    std::array<std::vector<Interval>, kOrders> control;  // b_i of each order
+    std::array<Interval, kOrders> hull;
   };
   Interval OfPart(const Piece& piece, int order, double from, double to, size_t k) const;
 
   std::vector<double> times_;
   std::vector<std::vector<Piece>> pieces_;  // by joint
   // hulls_[joint][level][i]: of pieces i·2^level … (i + 1)·2^level − 1.
-  std::vector<std::vector<std::vector<std::array<Interval, 3>>>> hulls_;
+  std::vector<std::vector<std::vector<std::array<Interval, kOrders>>>> hulls_;
   bool jumps_ = false;
 };
 

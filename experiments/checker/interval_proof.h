@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <queue>
+#include <vector>
 
 #include "experiments/checker/interval.h"
 
@@ -35,36 +37,89 @@ struct Proof {
   std::int64_t intervals = 0;  ///< that were looked at
 };
 
-/// Whether a margin is at least `demanded` on [begin, end]; `look(from, to)` gives a Part. The part
-/// with the least bound is halved until all bounds suffice, or that one is missed at its middle, is
-/// shorter than 1 µs or within 10⁻⁹ of its value (halving helps no more), or 200,000 parts were
-/// looked at. The last three say that nothing is proved, not that it is violated.
-template <typename Look>
-Proof Prove(double begin, double end, double demanded, const Look& look) {
-  constexpr double kFinest = 1e-6, kMissed = 1e-9;
-  constexpr std::int64_t kMost = 200'000;
-  Proof proof;
+/// Where intervals are cut: at a knot inside of them while there is one, else in the middle.
+struct Span {
+  double begin = 0.0;                          ///< [s]
+  double end = 0.0;                            ///< [s]
+  const std::vector<double>* knots = nullptr;  ///< growing [s]; null: none
+
+  /// Whether a knot lies between both.
+  bool HasKnot(double from, double to) const { return KnotIn(from, to) != to; }
+  /// The middle one of the knots between both; none: `to`.
+  double KnotIn(double from, double to) const {
+    if (knots == nullptr) return to;
+    const auto first = std::ranges::upper_bound(*knots, from);
+    const auto last = std::ranges::lower_bound(*knots, to);
+    return first < last ? *(first + (last - first) / 2) : to;
+  }
+};
+
+/// Halves the part with the least bound until `ends(part, intervals)` of it, and returns it.
+/// `look(from, to)` gives a Part.
+template <typename Look, typename Ends>
+Part Search(const Span& span, const Look& look, const Ends& ends, std::int64_t* intervals) {
   std::priority_queue<Part> parts;
   const auto add = [&](double from, double to) {
     parts.push(look(from, to));
-    ++proof.intervals;
+    ++*intervals;
   };
-  add(begin, end);
-  while (true) {
+  add(span.begin, span.end);
+  while (!ends(parts.top())) {
     const Part part = parts.top();
-    proof.least = part.bound;
-    proof.at = part.middle();
-    proof.proved = part.bound >= demanded;
-    if (proof.proved) return proof;
-    if (part.value < demanded - kMissed || part.to - part.from < kFinest ||
-        part.value - part.bound < kMissed || proof.intervals >= kMost) {
-      proof.least = part.value;
-      return proof;
-    }
     parts.pop();
-    add(part.from, part.middle());
-    add(part.middle(), part.to);
+    const double knot = span.KnotIn(part.from, part.to);
+    const double cut = knot < part.to ? knot : part.middle();
+    add(part.from, cut);
+    add(cut, part.to);
   }
+  return parts.top();
+}
+
+inline constexpr double kFinestPart = 1e-6;          ///< shorter parts are not halved [s]
+inline constexpr std::int64_t kMostParts = 200'000;  ///< that are looked at
+
+/// Whether a margin is at least `demanded` on a span. The part with the least bound is halved until
+/// all bounds suffice, or that one is missed at its middle, is shorter than 1 µs or within 10⁻⁹ of
+/// its value (halving helps no more), or 200,000 parts were looked at. The last three say that
+/// nothing is proved, not that it is violated.
+template <typename Look>
+Proof Prove(const Span& span, double demanded, const Look& look) {
+  constexpr double kMissed = 1e-9;
+  Proof proof;
+  const Part part = Search(
+      span, look,
+      [&](const Part& worst) {
+        return worst.bound >= demanded || worst.value < demanded - kMissed ||
+               worst.to - worst.from < kFinestPart || worst.value - worst.bound < kMissed ||
+               proof.intervals >= kMostParts;
+      },
+      &proof.intervals);
+  proof.proved = part.bound >= demanded;
+  proof.least = proof.proved ? part.bound : part.value;
+  proof.at = part.middle();
+  return proof;
+}
+
+/// What a margin is at least on a span: by at most `off` less than its least value, where 200,000
+/// parts suffice for that.
+template <typename Look>
+double LeastOf(const Span& span, double off, const Look& look, std::int64_t* intervals) {
+  double seen = std::numeric_limits<double>::infinity();
+  std::int64_t count = 0;
+  const auto looked = [&](double from, double to) {
+    const Part part = look(from, to);
+    seen = std::min(seen, part.value);
+    return part;
+  };
+  const Part part = Search(
+      span, looked,
+      [&](const Part& worst) {
+        return seen - worst.bound <= off || worst.to - worst.from < kFinestPart ||
+               count >= kMostParts;
+      },
+      &count);
+  *intervals += count;
+  return part.bound;
 }
 
 }  // namespace halfstep::checker

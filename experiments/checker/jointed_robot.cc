@@ -37,13 +37,12 @@ const UrdfJoint& JointedRobot::JointOf(int link) const {
   return Nth(urdf_.joints, Nth(urdf_.links, link).joint);
 }
 
-std::vector<Frame> JointedRobot::Frames(const std::vector<Interval>& q) const {
-  std::vector<Frame> frames(urdf_.links.size());
+std::vector<Frame> JointedRobot::Frames(const Frame& X_WRoot,
+                                        const std::vector<Interval>& q) const {
+  std::vector<Frame> frames(urdf_.links.size(), X_WRoot);
   for (size_t i = 1; i < frames.size(); ++i) {
     const UrdfJoint& joint = JointOf(static_cast<int>(i));
-    frames[i] = Nth(frames, joint.parent) * FrameOf(joint.X_ParentChild);
-    if (joint.kind != UrdfJoint::Kind::kRevolute) continue;
-    frames[i] = frames[i] * TurnAbout(joint.axis, Nth(q, urdf_.links[i].joint));
+    frames[i] = After(Nth(frames, joint.parent), joint, Nth(q, urdf_.links[i].joint));
   }
   return frames;
 }
@@ -57,32 +56,38 @@ std::vector<int> JointedRobot::Above(int link) const {
 // Down from the body to where both chains meet, and up to the link: what lies between a joint's
 // origin and the body's points are the offsets on that way, in whatever way joints turn. On the way
 // up the joint of a link has its origin at that link's frame.
-std::vector<JointedRobot::Lever> JointedRobot::Levers(const Body& body, int link) const {
-  const std::vector<int> above = Above(body.link), others = Above(link);
+std::vector<JointedRobot::Lever> JointedRobot::Levers(const Body& body, int link,
+                                                      const std::vector<double>& slides) const {
+  const std::vector<int> above = Above(body.link);
+  const std::vector<int> others = link < 0 ? std::vector<int>() : Above(link);
   std::vector<Lever> levers;
   double reach = body.reach;
+  const auto pass = [&](int at, bool down) {
+    const int index = Nth(urdf_.links, at).joint;
+    const UrdfJoint& joint = Nth(urdf_.joints, index);
+    const bool turns = joint.kind == UrdfJoint::Kind::kRevolute;
+    if (turns && down) levers.push_back({index, reach});
+    reach = kRoundedUp * (reach + joint.X_ParentChild.translation().norm());
+    if (joint.slides) {
+      levers.push_back({index, kRoundedUp});
+      reach = kRoundedUp * (reach + Nth(slides, index));
+    }
+    if (turns && !down) levers.push_back({index, reach});
+  };
   size_t i = 0;
   for (; std::ranges::find(others, above[i]) == others.end(); ++i) {
-    const UrdfJoint& joint = JointOf(above[i]);
-    if (joint.kind == UrdfJoint::Kind::kRevolute) {
-      levers.push_back({Nth(urdf_.links, above[i]).joint, reach});
+    if (Nth(urdf_.links, above[i]).joint < 0) {
+      levers.push_back({-1, reach});
+      return levers;
     }
-    reach = kRoundedUp * (reach + joint.X_ParentChild.translation().norm());
+    pass(above[i], true);
   }
-  const auto met = std::ranges::find(others, above[i]);
-  for (auto at = met; at != others.begin();) {
-    --at;
-    const UrdfJoint& joint = JointOf(*at);
-    reach = kRoundedUp * (reach + joint.X_ParentChild.translation().norm());
-    if (joint.kind == UrdfJoint::Kind::kRevolute) {
-      levers.push_back({Nth(urdf_.links, *at).joint, reach});
-    }
-  }
+  for (auto at = std::ranges::find(others, above[i]); at != others.begin();) pass(*--at, false);
   return levers;
 }
 
 int JointedRobot::Rigid(int link) const {
-  while (Nth(urdf_.links, link).joint >= 0 && JointOf(link).kind != UrdfJoint::Kind::kRevolute) {
+  while (Nth(urdf_.links, link).joint >= 0 && !JointOf(link).moves()) {
     link = JointOf(link).parent;
   }
   return link;

@@ -26,27 +26,31 @@ struct Standing {
   double z = 0.0;       // [m]
   double at = 0.0;      // [s]
   size_t side = 0;      // Index(Side)
+  size_t place = 0;     // as proofs count: side at the start; 2 + j: after flight j
 };
 
 std::vector<Standing> StandingFrom(const WalkMotion& motion, double from) {
   std::vector<Standing> all;
   for (size_t side = 0; side < 2; ++side) {
     double since = 0.0, until = kInfinity;
+    size_t place = side;
     const auto add = [&] {
       if (until < from) return;
       const WalkNumbers x = motion.On(since, since);
       const Curve* const sole = &x[kSole + 4 * side];
       const auto [s, c] = SinCosOf(sole[3]);
       Standing standing{TurnAbout(Eigen::Vector3d::UnitZ(), s, c), sole[2].at[0].Middle(), since,
-                        side};
+                        side, place};
       standing.X_WF.p = {sole[0], sole[1], 0.0};
       all.push_back(standing);
     };
-    for (const WalkMotion::Flight& flight : motion.flights()) {
+    for (size_t j = 0; j < motion.flights().size(); ++j) {
+      const WalkMotion::Flight& flight = motion.flights()[j];
       if (flight.side != side) continue;
       until = flight.begin;
       add();
       since = std::min(flight.end, motion.end());
+      place = 2 + j;
       until = flight.lands ? kInfinity : -kInfinity;
     }
     add();
@@ -58,8 +62,25 @@ double FlatGap(const ConvexBody& at_rest, const ConvexBody& outline, const Frame
                double demanded) {
   Eigen::Vector3d direction{0, 0, 0};
   return WalkStatements::Apart({at_rest, FrameIn<Curve>(), VectorOf(at_rest.center)},
-                               {outline, X_WF, CenterAt(X_WF, outline)}, demanded, &direction)
+                               {outline, X_WF, CenterAt(X_WF, outline)}, demanded, &direction,
+                               false)
       .bound;
+}
+
+// How far a sole is from an area, by the direction that is told, or that is noted.
+Kept FromArea(const ConvexBody& area, const ConvexBody& outline, const Standing& sole,
+              double demanded, bool told, ProofHints::Directions* known) {
+  Eigen::Vector3d direction = ProofHints::At(*known, sole.at);
+  const Vector at_rest = VectorOf(area.center), center = CenterAt(sole.X_WF, outline);
+  const Kept kept = WalkStatements::Apart({area, FrameIn<Curve>(), at_rest},
+                                          {outline, sole.X_WF, center}, demanded, &direction, told);
+  if (told) return kept;
+  if (direction.isZero()) {  // their circles are apart
+    const Vector away = center - at_rest;
+    direction << away[0].Middle(), away[1].Middle(), 0.0;
+  }
+  ProofHints::Note(sole.at, direction.normalized(), known);
+  return kept;
 }
 
 // How far points are to the left of the line from a to b, at least [m].
@@ -176,33 +197,35 @@ double InsideLevel(const Standing& sole, const Matrix2Xd& outline, const Ground&
 }  // namespace
 
 void AddStandingSoles(const WalkMotion& motion, const RobotModel& robot, const Scene& scene,
-                      const verify::CertificateText& certificate, double from,
+                      const verify::CertificateText& certificate, double from, ProofHints* hints,
                       TrajectoryCheck* check) {
   const std::vector<Standing> soles = StandingFrom(motion, from);
   const ConvexBody outline = PrismOver(robot.sole_outline);
   const auto add = [&](Kind kind, const std::string& what, const Standing& sole, double demanded,
-                       double least) {
+                       const Kept& kept) {
     check->findings.push_back(
         {.kind = kind,
          .subject =
              Formatted("%s sole at %.3f s", sole.side == 0 ? "left" : "right", sole.at) + what,
-         .proved = least > 0.0 && least >= demanded,
+         .proved = kept.bound > 0.0 && kept.bound >= demanded,
          .demanded = demanded,
-         .least = least,
-         .at = sole.at});
+         .least = kept.bound,
+         .at = sole.at,
+         .hint_missing = kept.hint_missing});
   };
   const double apart = certificate.demanded[verify::kNoStep];
   for (size_t k = 0; apart != verify::kNotDemanded && k < scene.no_step.size(); ++k) {
     for (const Standing& sole : soles) {
       add(Kind::kNoStep, Formatted(" - area %zu", k + 1), sole, apart,
-          FlatGap(PrismOver(scene.no_step[k]), outline, sole.X_WF, apart));
+          FromArea(PrismOver(scene.no_step[k]), outline, sole, apart, hints->told,
+                   &hints->directions[{verify::kNoStep, sole.place, k}]));
     }
   }
   const double inside = certificate.demanded[verify::kFoothold];
   if (inside == verify::kNotDemanded || scene.ground->OnlyLevel()) return;
   for (const Standing& sole : soles) {
     add(Kind::kFoothold, "", sole, inside,
-        InsideLevel(sole, robot.sole_outline, *scene.ground, inside));
+        {.bound = InsideLevel(sole, robot.sole_outline, *scene.ground, inside)});
   }
 }
 

@@ -89,11 +89,13 @@ WalkRun ReadWalkRun(const std::string& run, const std::string& method,
                     const std::string& robot_file, const std::string& scene_file) {
   const fs::path root(run), folder = root / method;
   const auto path = [](const fs::path& in, const char* name) { return (in / name).string(); };
-  const auto read = [&](const auto& reader, const fs::path& in, const char* name) {
-    return reader(path(in, name), ReadBytes(path(in, name)));
-  };
   if (method.empty()) return ReadEpisodeRun(run, robot_file, scene_file);
   WalkRun walk;
+  const auto read = [&](const auto& reader, const fs::path& in, const char* name) {
+    const std::string text = ReadBytes(path(in, name));
+    walk.files.push_back(RecordOf(path(in, name), text));
+    return reader(path(in, name), text);
+  };
   walk.certificate = read(verify::ReadCertificateJson, folder, "certificate.json");
   const verify::RunManifest manifest = read(verify::ReadManifest, root, "manifest.json");
   const ExperimentConfig config = LoadConfig(path(root, "config.yaml"), {});
@@ -111,6 +113,10 @@ WalkRun ReadWalkRun(const std::string& run, const std::string& method,
                                     manifest.scene_sha256})
                      .input;
   }
+  walk.files.push_back(RecordOf(path(root, "config.yaml"), ReadBytes(path(root, "config.yaml"))));
+  for (const auto* files : {&walk.robot.files, &walk.scene.files}) {
+    walk.files.insert(walk.files.end(), files->begin(), files->end());
+  }
   walk.tables.footsteps = read(verify::ReadFootsteps, root, "footsteps.csv");
   walk.tables.half_steps = read(verify::ReadHalfSteps, folder, "half_steps.csv");
   const HalfStepConfig& form = config.half_step;
@@ -120,6 +126,8 @@ WalkRun ReadWalkRun(const std::string& run, const std::string& method,
   std::optional<std::vector<verify::OverlapRow>> overlaps;
   if (fs::exists(folder / "overlaps.csv")) {
     overlaps = read(verify::ReadOverlaps, folder, "overlaps.csv");
+    walk.overlaps.emplace();
+    for (const verify::OverlapRow& row : *overlaps) walk.overlaps->push_back(row.overlap);
   }
   walk.tables.starts = StartsOf(walk.tables.half_steps, overlaps, path(folder, "half_steps.csv"));
   const std::string& branches = config.smoothing.stop_branches;
@@ -134,15 +142,16 @@ WalkRun ReadWalkRun(const std::string& run, const std::string& method,
   return walk;
 }
 
-TrajectoryCheck CheckRun(const WalkRun& run, const std::function<bool(double done)>& progress) {
+TrajectoryCheck CheckRun(const WalkRun& run, const std::function<bool(double done)>& progress,
+                         ProofHints* hints) {
   TrajectoryCheck all;
   std::map<std::pair<TrajectoryFinding::Kind, std::string>, TrajectoryFinding> worst;
   const double parts = static_cast<double>(run.branches.size() + (run.whole ? 1 : 0));
   double done = 0.0;
-  const auto add = [&](const WalkTables& tables, const StopBranch& of) {
+  const auto add = [&](const WalkTables& tables, const StopBranch& of, ProofHints* with) {
     TrajectoryCheck part = CheckWalk(
         tables, run.robot, of.world ? *of.world : run.scene, run.certificate, run.crouch,
-        [&](double share) { return !progress || progress((done + share) / parts); }, of.from);
+        [&](double share) { return !progress || progress((done + share) / parts); }, with, of.from);
     for (const TrajectoryFinding& finding : part.findings) {
       const auto [at, is_new] = worst.try_emplace({finding.kind, finding.subject});
       TrajectoryFinding& kept = at->second;
@@ -158,9 +167,9 @@ TrajectoryCheck CheckRun(const WalkRun& run, const std::function<bool(double don
     all.stopped = part.stopped;
     done += 1.0;
   };
-  if (run.whole) add(run.tables, {});
+  if (run.whole) add(run.tables, {}, hints);
   for (size_t i = 0; i < run.branches.size() && !all.stopped; ++i) {
-    add(run.tables.CutAfter(run.branches[i].last), run.branches[i]);
+    add(run.tables.CutAfter(run.branches[i].last), run.branches[i], nullptr);
   }
   for (auto& [key, finding] : worst) all.findings.push_back(std::move(finding));
   all.not_covered.insert(all.not_covered.end(), run.not_covered.begin(), run.not_covered.end());

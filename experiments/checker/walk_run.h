@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "experiments/checker/check_trajectory.h"
+#include "experiments/checker/proof_hints.h"
 #include "experiments/checker/walk_motion.h"
 #include "experiments/verify/certificate_text.h"
 #include "planner/scene/scene.h"
@@ -24,14 +25,16 @@ struct StopBranch {
 
 /// A walk of a run or an episode, and what is demanded of it.
 struct WalkRun {
-  WalkTables tables;                     ///< that describe it
-  RobotModel robot;                      ///< that walks
-  Scene scene;                           ///< among what
-  verify::CertificateText certificate;   ///< what is demanded; its rows are not read
-  double crouch = 0.0;                   ///< [m]
-  bool whole = true;                     ///< whether it is asked about itself
-  std::vector<StopBranch> branches;      ///< of which the same is demanded
-  std::vector<std::string> not_covered;  ///< sentences on what is not looked at
+  WalkTables tables;                                 ///< that describe it
+  RobotModel robot;                                  ///< that walks
+  Scene scene;                                       ///< among what
+  verify::CertificateText certificate;               ///< what is demanded; its rows are not read
+  double crouch = 0.0;                               ///< [m]
+  bool whole = true;                                 ///< whether it is asked about itself
+  std::vector<StopBranch> branches = {};             ///< of which the same is demanded
+  std::vector<std::string> not_covered;              ///< sentences on what is not looked at
+  std::optional<std::vector<double>> overlaps = {};  ///< [s]; none: `starts` are as planned
+  std::vector<InputFile> files = {};                 ///< that a run's walk was read from
 };
 
 /// The folders of a run's methods: the one of `method`, or all that say they are certified; of an
@@ -55,6 +58,8 @@ WalkRun ReadEpisodeRun(const std::string& folder, const std::string& robot_file,
 std::vector<std::string> SentencesOf(const std::vector<verify::NotCoveredItem>& not_covered);
 
 /// CheckWalk of the walk and of its branches: of each statement what is kept least, or missed.
-TrajectoryCheck CheckRun(const WalkRun& run, const std::function<bool(double done)>& progress = {});
+/// `hints` are of the walk itself.
+TrajectoryCheck CheckRun(const WalkRun& run, const std::function<bool(double done)>& progress = {},
+                         ProofHints* hints = nullptr);
 
 }  // namespace halfstep::checker

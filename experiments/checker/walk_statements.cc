@@ -109,7 +109,7 @@ ConvexBody PrismOver(const Eigen::Matrix2Xd& polygon, double bottom, double top)
 
 // A body is seen from the other one, so that their common motion does not count.
 Kept WalkStatements::Apart(const Placed& a, const Placed& b, double demanded,
-                           Eigen::Vector3d* direction) {
+                           Eigen::Vector3d* direction, bool told) {
   const Vector d = b.center - a.center;
   const Interval between = Sqrt(Square(d[0]) + Square(d[1]) + Square(d[2]));
   const double spheres = (between - Interval(a.shape.radius) - Interval(b.shape.radius)).lo;
@@ -119,6 +119,15 @@ Kept WalkStatements::Apart(const Placed& a, const Placed& b, double demanded,
   const double known =
       direction->isZero() ? -kInfinity : GapAlong(*direction, a.shape, Frame(), b.shape, over);
   if (known >= demanded) return {known, known};
+  if (told) {
+    const Eigen::Isometry3d X_WA = About(a.X_W), X_WB = About(b.X_W);
+    const double far = (X_WB * b.shape.center - X_WA * a.shape.center).norm();
+    const Kept kept{std::max(spheres, known), far - a.shape.radius - b.shape.radius};
+    if (direction->isZero()) return {kept.bound, kept.value, true};
+    const Frame there = FrameOf(X_WA.inverse() * X_WB);
+    return {kept.bound,
+            std::max(kept.value, GapAlong(*direction, a.shape, Frame(), b.shape, there))};
+  }
   const SeparationHint hint = HintOf(a.shape, Eigen::Isometry3d::Identity(), b.shape, About(X_AB));
   *direction = hint.direction;
   return {std::max(known, GapAlong(hint.direction, a.shape, Frame(), b.shape, over)),
@@ -274,7 +283,7 @@ const GroundSolid* WalkStatements::SolidOf(const WalkStatement& statement) const
 Kept WalkStatements::FromSolid(WalkStatement* statement, const Placed& moving) const {
   const ConvexBody& solid = obstacles_[statement->b];
   return Apart({solid, FrameIn<Curve>(), VectorOf(solid.center)}, moving, statement->demanded,
-               &statement->direction);
+               &statement->direction, statement->told);
 }
 
 Kept WalkStatements::OfBodies(WalkStatement* statement, WalkState* state) const {
@@ -301,20 +310,22 @@ Kept WalkStatements::OfBodies(WalkStatement* statement, WalkState* state) const 
   };
   const Placed moving = placed(statement->a);
   if (statement->family == verify::kSelfClearance) {
-    return Apart(placed(statement->b), moving, statement->demanded, &statement->direction);
+    return Apart(placed(statement->b), moving, statement->demanded, &statement->direction,
+                 statement->told);
   }
   if (solid != nullptr) {
     const Kept kept = FromSolid(statement, moving);
-    return below ? Kept{kept.bound, kInfinity} : kept;
+    return below ? Kept{kept.bound, kInfinity, kept.hint_missing} : kept;
   }
   if (statement->family == verify::kClearance) {
     const Obstacle& obstacle = scene_.obstacles[statement->b];
     const ConvexBody& shape = obstacles_[statement->b];
     const FrameIn<Curve> X_WO = PlaceOf(obstacle, *state);
     const double away = FarthestAway(obstacle.motion, *state);
-    const Kept kept = Apart({shape, X_WO, CenterAt(X_WO, shape)}, moving,
-                            Above(statement->demanded + away), &statement->direction);
-    return {checker::Below(kept.bound - away), kept.value - away};
+    const Kept kept =
+        Apart({shape, X_WO, CenterAt(X_WO, shape)}, moving, Above(statement->demanded + away),
+              &statement->direction, statement->told);
+    return {checker::Below(kept.bound - away), kept.value - away, kept.hint_missing};
   }
   const double lowest = (moving.center[2] - Interval(body.shape.radius)).lo;
   if (lowest >= statement->demanded) return {lowest, lowest};

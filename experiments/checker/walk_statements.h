@@ -15,8 +15,9 @@ inline constexpr double kInfinity = std::numeric_limits<double>::infinity();  //
 
 /// What is kept of a margin on an interval of time.
 struct Kept {
-  double bound = 0.0;  ///< at least that, at every instant
-  double value = 0.0;  ///< about that in the middle
+  double bound = 0.0;         ///< at least that, at every instant
+  double value = 0.0;         ///< about that in the middle
+  bool hint_missing = false;  ///< no direction was told, which might show more
 
   /// All of an interval, and about what its middle has.
   static Kept Of(const Interval& over, const Interval& at) { return {over.lo, at.Middle()}; }
@@ -39,6 +40,7 @@ struct WalkStatement {
   /// behind the obstacles; unused.
   size_t a = 0, b = 0;
   Eigen::Vector3d direction{0, 0, 0};  ///< along which two bodies were separated last; 0: none
+  bool told = false;                   ///< whether by others, so that no other one is looked for
 };
 
 /// A convex polygon (2×n) as a flat body in the plane z = 0, or an upright prism.
@@ -65,8 +67,9 @@ class WalkStatements {
     const FrameIn<Curve>& X_W;  ///< that frame
     const Vector& center;       ///< of its bounding sphere, in W [m]
   };
-  /// How far two of them are apart along the best direction known [m].
-  static Kept Apart(const Placed& a, const Placed& b, double demanded, Eigen::Vector3d* direction);
+  /// How far two of them are apart along the best direction known [m]; `told`: along this one.
+  static Kept Apart(const Placed& a, const Placed& b, double demanded, Eigen::Vector3d* direction,
+                    bool told);
 
  private:
   Kept OfSwingFoot(WalkStatement* statement, const WalkState& state) const;

@@ -1,10 +1,13 @@
 #include <unistd.h>
 
+#include <charconv>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <string>
+#include <system_error>
 
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
@@ -73,10 +76,32 @@ void ReportOfEpisode(const ReportCommand& command, const fs::path& folder) {
   }
 }
 
-// A line that the next one replaces, where it is a person who reads.
+// A line that the next one replaces, where it is a person who reads; in a log about ten lines.
 void TellFrames(int done, int frames) {
-  if (isatty(STDERR_FILENO) != 1) return;
-  std::cerr << "\rframe " << done << " of " << frames << (done == frames ? "\n" : "") << std::flush;
+  if (isatty(STDERR_FILENO) == 1) {
+    std::cerr << "\rframe " << done << " of " << frames << (done == frames ? "\n" : "")
+              << std::flush;
+  } else if (done == frames || done * 10 / frames > (done - kFramesAtOnce) * 10 / frames) {
+    std::cerr << "frame " << done << " of " << frames << '\n';
+  }
+}
+
+// "1280x720" as the size of a video.
+void ReadSize(const std::string& text, VideoOptions* options) {
+  constexpr int kLeast = 160, kMost = 4096;
+  int width = 0, height = 0;
+  const char* const end = text.data() + text.size();
+  const auto [cross, no_width] = std::from_chars(text.data(), end, width);
+  const bool crossed = no_width == std::errc() && cross != end && *cross == 'x';
+  const auto [rest, no_height] = std::from_chars(crossed ? cross + 1 : end, end, height);
+  const auto fits = [](int edge) { return edge >= kLeast && edge <= kMost && edge % 2 == 0; };
+  if (!crossed || no_height != std::errc() || rest != end || !fits(width) || !fits(height)) {
+    throw InputError(
+        {"--video-size: " + text +
+         " (valid: WIDTHxHEIGHT, two even numbers from 160 to 4096, such as 1280x720)"});
+  }
+  options->width = width;
+  options->height = height;
 }
 
 ExitStatus Video(const ReportCommand& command, const fs::path& run, const fs::path& out) {
@@ -97,10 +122,16 @@ ExitStatus Video(const ReportCommand& command, const fs::path& run, const fs::pa
 // The mistakes that a command line may have.
 void CheckOptions(const ReportCommand& command, const fs::path& run) {
   if (!command.video) {
-    const bool shown = !command.options.show.empty();
-    if (command.options.seconds || shown) {
-      throw InputError({std::string(shown ? "--show" : "--seconds") +
-                        ": there is no video (valid: with --video OUT.webm)"});
+    const VideoOptions none;
+    const char* given =
+        !command.options.show.empty() ? "--show"
+        : command.options.seconds     ? "--seconds"
+        : command.options.width != none.width || command.options.height != none.height
+            ? "--video-size"
+        : command.options.rate != none.rate ? "--video-rate"
+                                            : nullptr;
+    if (given != nullptr) {
+      throw InputError({std::string(given) + ": there is no video (valid: with --video OUT.webm)"});
     }
     return;
   }
@@ -158,12 +189,19 @@ CommandAction DeclareReport(CLI::App* app, const Toolbox& tools) {
   app->add_option("--seconds", command->options.seconds,
                   "how long the video lasts [s] (default: as long as the walk)")
       ->check(CLI::Range(0.1, 3600.0));
+  const auto size = std::make_shared<std::string>();
+  app->add_option("--video-size", *size, "its width and height [px] (default: 1280x720)");
+  app->add_option("--video-rate", command->options.rate, "its frames a second (default: 30)")
+      ->check(CLI::Range(1, 120));
   app->add_option("--show", command->options.show,
                   "what the video shows, as after # in the address that the page's \"copy link\" "
                   "copies: 'a=raw&b=none&camera=side' (default: as the page opens)");
   app->add_flag("--overwrite", command->overwrite, "replace --out or --video");
   app->add_flag("--quiet", command->quiet, "print nothing but errors");
-  return [command] { return Report(*command); };
+  return [command, size] {
+    if (!size->empty()) ReadSize(*size, &command->options);
+    return Report(*command);
+  };
 }
 
 }  // namespace halfstep

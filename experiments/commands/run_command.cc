@@ -3,7 +3,10 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
@@ -28,18 +31,25 @@ class ProgressBars {
   void Update(const std::string& what, double done) { Of(what).Update(done); }
   void Best(const std::string& what, double duration) { Of(what).Best(duration); }
   void End() { bar_.reset(); }
+  /// The methods whose progress is the share of their effort; dichotomies go by junctions.
+  void CountEffortOf(const std::vector<std::string>& methods) {
+    for (const std::string& method : methods) {
+      if (!method.starts_with("dichotomy")) counted_.insert(method);
+    }
+  }
 
  private:
   ProgressBar& Of(const std::string& what) {
     if (!bar_ || what != what_) {
       bar_.reset();
-      bar_.emplace(what, quiet_);
+      bar_.emplace(what, quiet_, counted_.contains(what) ? " of the effort" : "");
       what_ = what;
     }
     return *bar_;
   }
 
   const bool quiet_;
+  std::set<std::string> counted_;
   std::string what_;
   std::optional<ProgressBar> bar_;
 };
@@ -98,6 +108,7 @@ ExitStatus Run(const RunCommand& command) {
   InterruptGuard interrupt;
   ProgressBars bars(command.quiet || command.json);
   const ExperimentConfig config = LoadConfig(command.config, command.overrides, command.tools);
+  bars.CountEffortOf(config.smoothing.methods);
   const RunHooks hooks{
       .progress = [&bars](const std::string& what, double done) { bars.Update(what, done); },
       .best = [&bars](const std::string& method, double walk) { bars.Best(method, walk); },
@@ -134,7 +145,8 @@ ExitStatus Run(const RunCommand& command) {
     std::cout << RunJson(run.experiment(), run.problem(), run.runs(), run.infeasible(), place);
   } else if (!command.quiet) {
     if (const std::string changed = run.changed_half_step(); !changed.empty()) {
-      std::cout << "planned with half_step: {" << changed << "}, which the ground or an obstacle asks for\n";
+      std::cout << "planned with half_step: {" << changed
+                << "}, which the ground or an obstacle asks for\n";
     }
     std::cout << RunTable(run.experiment(), run.problem(), run.runs(),
                           {place, "not_covered in certificate.json"});

@@ -54,6 +54,28 @@ std::vector<std::string> NamesIn(const fs::path& folder) {
   return names;
 }
 
+// What a shipped name is that is none of `folder`, and which command takes it; "": nothing.
+std::string OtherKind(const fs::path& name, const std::string& folder) {
+  struct Kind {
+    const char* folder;
+    const char* what;
+    const char* command;
+  };
+  constexpr Kind kKinds[] = {{"configs", "a config", "run"},
+                             {"episodes", "an episode", "live"},
+                             {"sweeps", "a sweep", "sweep"}};
+  for (const Kind& kind : kKinds) {
+    std::error_code ignored;
+    if (folder == kind.folder ||
+        !fs::is_regular_file(Within(kind.folder) / (name.string() + ".yaml"), ignored)) {
+      continue;
+    }
+    return std::string("it is ") + kind.what + ": `halfstep " + kind.command + " " + name.string() +
+           "`; ";
+  }
+  return "";
+}
+
 }  // namespace
 
 fs::path DataFolder() {
@@ -95,9 +117,18 @@ fs::path ShippedOr(const fs::path& given, const std::string& folder) {
 fs::path FileOrShipped(const std::string& given, const std::string& folder) {
   const fs::path found = ShippedOr(given, folder);
   std::error_code ignored;
-  if (!IsName(found) || fs::exists(found, ignored)) return found;
+  const fs::file_status status = fs::status(found, ignored);
+  if (fs::exists(status)) return found;
   const std::vector<std::string> names = NamesIn(Within(folder));
-  throw InputError({given + ": no such file (" + DidYouMean(given, names) + "valid: a path, or " +
+  if (!IsName(found)) {
+    if (status.type() != fs::file_type::not_found) return found;  // whoever opens it tells why
+    throw InputError({given + ": no such file (" + NearestFile(found) +
+                      "valid: a path, or a name of " + Joined(names) +
+                      "; `halfstep init NAME` writes a config)"});
+  }
+  const std::string other = OtherKind(found, folder);
+  throw InputError({given + ": no such file (" +
+                    (other.empty() ? DidYouMean(given, names) : other) + "valid: a path, or " +
                     Joined(names) + ")"});
 }
 
@@ -113,7 +144,7 @@ std::string UnknownRobot(const std::string& robot) {
 
 std::string NearestFile(const fs::path& missing) {
   std::vector<std::string> names;
-  for (const fs::path& path : YamlFiles(missing.parent_path())) {
+  for (const fs::path& path : YamlFiles(missing.has_parent_path() ? missing.parent_path() : ".")) {
     names.push_back(path.filename().string());
   }
   return DidYouMean(missing.filename().string(), names);

@@ -176,7 +176,8 @@ void DeclarePlanner(Fields& fields, PlannerConfig* c) {
     fields.Complain("unimproved_nodes", "has a fraction (valid: a whole number, or none)");
   }
   fields.Number("improving_effort", &c->improving_effort,
-                {.meaning = "`best` looks for better plans until this much work is used",
+                {.meaning = "`best` looks for better plans until this much work is used, or three "
+                            "times what the first plan took",
                  .min = 0.001,
                  .max = 86400});
   fields.Number("effort", &c->effort,

@@ -9,8 +9,7 @@ constexpr RunSubject kRunSubjects[] = {
     {"side", "heights of the soles along the way, and obstacles in it", SideRows},
     {"zmp", "CoM and ZMP against time, in the band of the standing soles", ZmpRows},
     {"margins", "proved margins against time", MarginsRows},
-    {"joints", "angles and speeds of the legs' joints, and limits", JointsRows},
-    {"pareto", "least margins against the duration (program pareto)", ParetoRows}};
+    {"joints", "angles and speeds of the legs' joints, and limits", JointsRows}};
 
 constexpr FolderSubject kComparisonSubjects[] = {
     {"durations", "of the methods by scenario", DurationsRows},

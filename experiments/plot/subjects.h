@@ -44,8 +44,6 @@ std::vector<Row> ZmpRows(const PlottedRun& run);
 std::vector<Row> MarginsRows(const PlottedRun& run);
 /// Joint angles and speeds of the legs against time, and their limits.
 std::vector<Row> JointsRows(const PlottedRun& run);
-/// Least margins against the duration, of a run with the program `pareto`.
-std::vector<Row> ParetoRows(const PlottedRun& run);
 
 /// Durations of the methods in each scenario.
 std::vector<Row> DurationsRows(const std::filesystem::path& comparison,

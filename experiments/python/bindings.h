@@ -25,5 +25,6 @@ void BindProgram(pybind11::module_& module);
 void BindRun(pybind11::module_& module, const ModuleTools& tools);
 void BindReplay(pybind11::module_& module, const ModuleTools& tools);
 void BindExtension(pybind11::module_& module, const ModuleTools& tools);
+void BindCheck(pybind11::module_& module);
 
 }  // namespace halfstep::python

@@ -18,4 +18,5 @@ PYBIND11_MODULE(_halfstep, module) {
   BindRun(module, tools);
   BindReplay(module, tools);
   BindExtension(module, tools);
+  BindCheck(module);
 }

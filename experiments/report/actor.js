@@ -56,8 +56,12 @@ export class Actor {
     onLayer(this.group, layer);
   }
 
-  /** Shows or hides "balance", "paths", "soles" or "strobe"; made when first shown. */
+  /** Shows or hides "balance", "bodies", "paths", "soles" or "strobe"; made when first shown. */
   show(what, visible) {
+    if (what === "bodies") {
+      this.figure.showBodies(visible);
+      return;
+    }
     if (what === "balance") {
       this.balance.visible = visible;
       return;

@@ -1,4 +1,5 @@
 // What was told of an episode, by messages of protocol 2, and what of it was true at a time.
+import { readable } from "./words.js";
 
 // The last element of a list in the order of `key` that is not after t.
 function lastUntil(list, key, t) {
@@ -43,7 +44,7 @@ export class EpisodeRecord {
       world: () => this.takeWorld(message),
       walk: () => this.takeWalk(message),
       grant: () => put(this.grants, message, "grant"),
-      event: () => this.events.push(message),
+      event: () => this.takeEvent(message),
       state: () => { this.state = message; },
       motion: () => { this.motion = message; },
       volume: () => this.cells.set(message.volume, message),
@@ -57,6 +58,11 @@ export class EpisodeRecord {
   takeWorld(message) {
     put(this.worlds, message, "world");
     if (this.worlds.length > mostWorlds) this.worlds.splice(0, mostWorlds / 2);
+  }
+
+  // A stop while the robot was held tells no reason of its own.
+  takeEvent(message) {
+    this.events.push({ ...message, held: this.state?.held ?? false });
   }
 
   takeWalk(message) {
@@ -91,23 +97,52 @@ export function stageOf(footstep, begun, through) {
   return rises + 1 <= through ? "granted" : "to come";
 }
 
+// Why the robot came to rest, where its event does not say: what was told last before it.
+function whyStopped(event, before) {
+  const cause = before.findLast(({ event: name }) => ["unsafe", "contradicted", "lost", "handed_over"].includes(name));
+  if (event.held) return "it was told to pause";
+  if (!cause || cause.event === "handed_over") return "no further half-step was proved in time";
+  return { unsafe: `no safe way on: ${cause.text}`, contradicted: `an obstacle did not keep its bounds: ${cause.text}`,
+           lost: "a frame was lost, and what was proved ran out" }[cause.event];
+}
+
+const kinds = {
+  safe: "the way is safe as it is", resumed: "it walks on", changed: "another way", shortened: "a shorter way",
+  smoothed: "a faster walk of the same footsteps", commanded: "as commanded",
+};
+
+/** Why a walk took over, in words. */
+export function handOverWords(kind, reason) {
+  return `${kinds[kind] ?? kind}${reason ? `: ${reason}` : ""}`;
+}
+
 const words = {
-  handed_over: ({ walk, text, half_step: from }) =>
-    `walk ${walk} taken over, from half-step ${from} on: ${text}`,
-  lost: ({ text }) => `lost: ${text}`,
+  handed_over: ({ walk, text, half_step: from }) => {
+    const [kind, ...reason] = text.split(": ");
+    return `walk ${walk} taken over, from half-step ${from} on: ${handOverWords(kind, reason.join(": "))}`;
+  },
+  lost: ({ text }) => `a measurement was lost: ${text}`,
+  commanded: ({ text }) => `commanded: ${text}`,
+  near: ({ text, half_step: half }) => `half-step ${half} begins ${text}`,
   contradicted: ({ text }) => `did not keep its error and speed: earlier proofs are void: ${text}`,
   refused: ({ text }) => `a walk was refused: ${text}`,
   unsafe: ({ text }) => `no safe way on was found: ${text}`,
-  stopped: ({ text, half_step: last }) => `stops after half-step ${last}: ${text}`,
+  stopped: (event, before) => {
+    const [rests, ...awaited] = event.text.split(": ");
+    const why = awaited.length ? awaited.join(": ") : whyStopped(event, before);
+    return `stops after half-step ${event.half_step}, ${rests}: ${why}`;
+  },
   early: ({ text }) => text,
   late: ({ text }) => text,
   pushed: ({ text }) => `pushed: ${text}`,
   error: ({ text }) => `refused: ${text}`,
 };
 
-/** An event in words; null for those that happen all the time. */
-export function inWords(event) {
+/**
+ * An event with its reason in words, given those before it; null for those that happen all the time.
+ */
+export function inWords(event, before) {
   if (event.event === "measured" || event.event === "begins") return null;
-  const text = words[event.event]?.(event) ?? `${event.event}: ${event.text}`;
+  const text = readable(words[event.event]?.(event, before) ?? `${event.event}: ${event.text}`);
   return event.t_s === null ? text : `${event.t_s.toFixed(2)} s ${text}`;
 }

@@ -2,11 +2,10 @@
 import * as palette from "./palette.js";
 import { webmCluster, webmHead } from "./webm.js";
 
-const rate = 30; // frames a second
 const framesPerKey = 60;
 const kinds = [["vp09.00.40.08", "V_VP9"], ["vp8", "V_VP8"]];
 
-async function chosenEncoding(width, height) {
+async function chosenEncoding(width, height, rate) {
   for (const [codec, name] of window.VideoEncoder ? kinds : []) {
     const config = { codec, width, height, framerate: rate, bitrate: 6e6 };
     const { supported } = await VideoEncoder.isConfigSupported(config).catch(() => ({}));
@@ -59,16 +58,17 @@ class Picture {
 
 export class Film {
   /**
-   * A film of the instants from `from` to `to` [s] that lasts `seconds`. `page` has: canvas,
-   * show(t), which draws the instant t at once, and captions(), {names, beside, clock}.
+   * A film of the instants from `from` to `to` [s] that lasts `seconds`, of `rate` frames a second.
+   * `page` has: canvas, show(t), which draws the instant t at once, and captions(), {names, beside, clock}.
    */
-  static async begin(page, from, to, seconds) {
+  static async begin(page, from, to, seconds, rate = 30) {
     page.show(from);
     const film = new Film();
     film.page = page;
     film.picture = new Picture(page.canvas);
     const { width, height } = film.picture.canvas;
-    const { config, name } = await chosenEncoding(width, height);
+    const { config, name } = await chosenEncoding(width, height, rate);
+    film.rate = rate;
     film.frames = Math.max(2, Math.round(seconds * rate) + 1);
     film.done = 0;
     film.instant = (frame) => from + ((to - from) * frame) / (film.frames - 1);
@@ -102,7 +102,7 @@ export class Film {
       this.page.show(this.instant(this.done));
       this.picture.draw(this.page.captions());
       const frame = new VideoFrame(this.picture.canvas, {
-        timestamp: Math.round((this.done * 1e6) / rate), duration: Math.round(1e6 / rate),
+        timestamp: Math.round((this.done * 1e6) / this.rate), duration: Math.round(1e6 / this.rate),
       });
       this.encoder.encode(frame, { keyFrame: this.done % framesPerKey === 0 });
       frame.close();
@@ -133,7 +133,7 @@ function base64(parts) {
 }
 
 /**
- * What `halfstep report --video` drives: begin({seconds, show}) resolves to {frames}, or to
+ * What `halfstep report --video` drives: begin({seconds, show, rate}) resolves to {frames}, or to
  * {unknown}, a sentence, where the page knows nothing of what shall be shown; next(count) to
  * {done, bytes}, the frames that are done and the file's next bytes. The view fills the window.
  * `page` has what Film asks for, duration(), and show(address), which returns undefined or the
@@ -142,12 +142,13 @@ function base64(parts) {
 export function filmByCommand(page) {
   let film = null;
   return {
-    async begin({ seconds, show }) {
+    async begin({ seconds, show, rate }) {
       if (!page.hasView()) throw new Error("This browser has no WebGL: the walk is not drawn.");
       document.body.classList.add("film");
       const unknown = page.choose(show);
       if (unknown) return { unknown };
-      film = await Film.begin(page, page.begin(), page.duration(), seconds ?? page.duration() - page.begin());
+      film = await Film.begin(page, page.begin(), page.duration(), seconds ?? page.duration() - page.begin(),
+                              rate);
       return { frames: film.frames };
     },
     async next(count) {

@@ -5,7 +5,7 @@ const byId = (id) => document.getElementById(id);
 
 /**
  * The page of a Film and of filmByCommand. `page` has: hasView(), walks() as they are shown, timeline,
- * draw(), drawnWalks(), those that can be chosen, and applyAddress(asked).
+ * draw(t), which draws an instant at once, drawnWalks(), those that can be chosen, and applyAddress(asked).
  */
 export function filmedPage({ hasView, walks, timeline, draw, drawnWalks, applyAddress }) {
   return {
@@ -13,7 +13,7 @@ export function filmedPage({ hasView, walks, timeline, draw, drawnWalks, applyAd
     hasView,
     begin: () => (timeline.t < timeline.duration ? timeline.t : 0),
     duration: () => timeline.duration,
-    show: (t) => { timeline.seek(t); draw(); },
+    show: draw,
     captions: () => ({
       names: walks().map((walk, i) => byId(`tag-${"ab"[i]}`).textContent),
       beside: byId("view").classList.contains("beside"),

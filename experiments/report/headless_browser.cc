@@ -150,8 +150,8 @@ HeadlessBrowser::Process::~Process() {
   }
 }
 
-void HeadlessBrowser::Load(const fs::path& file) {
-  Send("Page.navigate", {{"url", "file://" + fs::absolute(file).string()}});
+void HeadlessBrowser::Load(const fs::path& file, std::string_view query) {
+  Send("Page.navigate", {{"url", "file://" + fs::absolute(file).string() + std::string(query)}});
   Evaluate(
       "document.readyState === 'complete' || new Promise((done) => "
       "window.addEventListener('load', () => done(true)))");

@@ -28,8 +28,9 @@ class HeadlessBrowser {
   HeadlessBrowser(const HeadlessBrowser&) = delete;
   HeadlessBrowser& operator=(const HeadlessBrowser&) = delete;
 
-  /// Shows a file, and returns when it is loaded. Throws as the constructor.
-  void Load(const std::filesystem::path& file);
+  /// Shows a file, and returns when it is loaded. `query`: what its address ends in, "?…", which
+  /// the page may read. Throws as the constructor.
+  void Load(const std::filesystem::path& file, std::string_view query = "");
 
   /// What an expression of JavaScript is in the page, once it is settled if it is a promise. Throws
   /// as the constructor, and for what the page throws; Stopped when a stop was requested.

@@ -7,6 +7,7 @@ export const layers = [
   ["paths", "paths", false],
   ["soles", "sole traces (sampled)", false],
   ["strobe", `body at ${instants} instants`, false],
+  ["bodies", "bodies that proofs use", false],
   ["volumes", "swept volumes", false],
 ];
 

@@ -1,11 +1,11 @@
 // Brings an episode and the page together: as it goes on, over a WebSocket, or as it was recorded.
 import { Dragging } from "./dragging.js";
 import { EpisodeRecord, inWords, numHalfSteps } from "./episode_record.js";
-import { Instant, Rows, rowsOf } from "./instants.js";
+import { Past, Rows, rowsOf } from "./instants.js";
 import { Latency } from "./latency.js";
 import { LiveControls } from "./live_controls.js";
 import { LiveView, layers } from "./live_view.js";
-import { legend, planRows, shortened, volumesNote } from "./live_words.js";
+import { handOverRows, legend, planRows, shortened, volumesNote } from "./live_words.js";
 import * as palette from "./palette.js";
 import * as THREE from "three";
 import { SocketSource } from "./socket_source.js";
@@ -16,7 +16,7 @@ import { Walk } from "./walk.js";
 const byId = (id) => document.getElementById(id);
 const data = JSON.parse(byId("data").textContent);
 const recorded = data.messages !== undefined;
-const shownEvents = 8;
+const shownEvents = 200;
 const mostLetters = 150; // of an event; the pointer over it shows all
 const slowFrame = 40; // [ms]
 const longestRest = 300;
@@ -35,7 +35,8 @@ darkness.addEventListener("change", () => {
 const record = new EpisodeRecord();
 const stage = stageOfPage(() => redraw());
 let view = null; // once it is known what to draw
-let instant = null; // of the live robot
+let past = null; // of the live robot
+let following = true; // what is shown is the robot as it is, not as it was
 let walk = null; // the recorded motion
 let timeline = null;
 let controls = null;
@@ -47,7 +48,7 @@ let again = false; // and another one is wanted
 const latency = new Latency(byId("latency"), byId("latency-words"), data.clock);
 
 function now() {
-  return timeline ? timeline.t : record.state?.t_s ?? record.worlds.at(-1)?.known_s ?? 0;
+  return timeline ? timeline.t : record.worlds.at(-1)?.known_s ?? 0;
 }
 
 // A machine that draws slowly, as one without a graphics card, rests as long as it drew, or 0.3 s: a live
@@ -72,9 +73,12 @@ function redraw() {
   });
 }
 
+// What the live robot told of an instant; undefined before it began to walk.
+const stateAt = (t) => (past?.states.length ? past.stateAt(t) : undefined);
+
 // The latest half-step that has begun.
 function begunAt(t) {
-  if (!walk) return record.state?.half_step ?? 0;
+  if (!walk) return stateAt(t)?.half_step ?? 0;
   return Math.round(walk.column("half_step")[walk.locate(t).row]);
 }
 
@@ -88,12 +92,19 @@ function show() {
   controls?.draw(isOpen);
   byId("state").textContent = stateText(t, plan, begun);
   planRows(byId("plan"), { t, plan, grant, world, begun });
-  latency.show(record.walks.filter((one) => one.handed_over_s <= t));
-  showEvents(record.eventsUntil(t).map(inWords).filter(Boolean).slice(-shownEvents).reverse());
+  const handedOver = record.walks.filter((one) => one.handed_over_s <= t);
+  latency.show(handedOver);
+  handOverRows(byId("hand-overs"), handedOver);
+  showEvents(record.eventsUntil(t));
 }
 
-function showEvents(lines) {
+function showEvents(events) {
   const log = byId("log");
+  const count = `${events.length} ${events.at(-1)?.t_s}`;
+  if (log.dataset.count === count) return;
+  log.dataset.count = count;
+  const lines = events.map((event, i) => inWords(event, events.slice(Math.max(0, i - 20), i)))
+    .filter(Boolean).slice(-shownEvents).reverse();
   if (log.dataset.key === lines.join("\n")) return;
   log.dataset.key = lines.join("\n");
   log.replaceChildren(...lines.map((line) => {
@@ -103,9 +114,8 @@ function showEvents(lines) {
 }
 
 function drawView(t, world, plan, begun, grant) {
-  const robot = walk ?? (record.state ? instant : null);
+  const robot = walk ?? (past?.states.length ? past : null);
   if (robot) {
-    if (instant) instant.row = record.state.row;
     view.showRobot(robot, t);
     if (byId("follow").checked && !dragging.held) stage.followTo(...ahead());
   }
@@ -125,11 +135,12 @@ function drawView(t, world, plan, begun, grant) {
 // Traces of what is to come; a recording has what was executed.
 let motionKey = null;
 function showMotion(t) {
-  const key = walk ? Math.floor(t / 0.2) : record.motion;
+  const key = walk || !following ? Math.floor(t / 0.2) : record.motion;
   const full = `${byId("show-strobe").checked}`;
   if (key === motionKey?.[0] && full === motionKey[1]) return;
   motionKey = [key, full];
   if (walk) view.showMotion(rowsOf(walk, t, motionSpan));
+  else if (!following) view.showMotion(new Rows(record.hello.columns, past.rowsFrom(t, motionSpan)));
   else if (record.motion) view.showMotion(new Rows(record.hello.columns, record.motion.rows));
 }
 
@@ -159,9 +170,11 @@ function stateText(t, plan, begun) {
   }
   if (record.waiting !== null && !plan) return `waits for a walk: ${record.waiting}`;
   if (!plan) return "nothing is known yet";
-  const rests = t >= plan.duration_s ? ", at rest" : record.state?.stopped ? ", nothing more begins" : "";
-  const held = record.state?.held ? ", paused" : "";
-  return `${t.toFixed(2)} s, half-step ${begun} of ${numHalfSteps(plan)}${rests}${held}`;
+  const state = stateAt(t);
+  const rests = t >= plan.duration_s ? ", at rest" : state?.stopped ? ", nothing more begins" : "";
+  const held = state?.held ? ", paused" : "";
+  const was = !recorded && !following ? ", as it was" : "";
+  return `${t.toFixed(2)} s, half-step ${begun} of ${numHalfSteps(plan)}${rests}${held}${was}`;
 }
 
 function makeView(drawn) {
@@ -176,6 +189,7 @@ function makeView(drawn) {
 }
 
 function moveThing(name, to, done) {
+  if (!following) return; // what was cannot be moved
   controls.move(name, to, done);
   const readout = byId("readout");
   readout.hidden = done;
@@ -204,12 +218,44 @@ function take(message) {
   if (message.type === "hello") {
     document.title = `${message.name} – halfstep live`;
     byId("title").textContent = message.name;
-    instant = recorded ? null : new Instant(message.columns);
+    past = recorded ? null : new Past(message.columns);
   }
   if (message.type === "draw" && !view) makeView(message);
+  if (message.type === "state") takeState(message);
   if (message.type === "error") {
     record.events.push({ t_s: now(), event: "error", text: message.text });
   }
+}
+
+// The time of a live robot goes on; who looks at what was stays there.
+let extending = false;
+function takeState(state) {
+  past.add(state);
+  if (!timeline) {
+    timeline = new Timeline(() => {
+      if (!extending) following = timeline.t >= timeline.duration - 1e-6;
+      byId("now").hidden = following;
+      redraw();
+    });
+    showTimeline();
+  }
+  extending = true;
+  timeline.extend(past.duration, following);
+  extending = false;
+}
+
+function showTimeline() {
+  byId("timeline").hidden = false;
+  byId("keys").textContent = "Keys: space plays, ← → move by 0.05 s, with shift by 0.5 s, Home and End. " +
+    byId("keys").textContent;
+  byId("restart").addEventListener("click", () => {
+    timeline.seek(past?.begin ?? 0);
+    timeline.toggle(true);
+  });
+  byId("now").addEventListener("click", () => {
+    timeline.toggle(false);
+    timeline.seek(timeline.duration);
+  });
 }
 
 function play() {
@@ -222,10 +268,8 @@ function play() {
   byId("connection").textContent = data.outcome;
   if (!data.motion) return;
   walk = new Walk({ summary: { method: "executed" }, ...data.motion });
-  byId("timeline").hidden = false;
-  byId("keys").textContent = "Keys: space plays, ← → move by 0.05 s, with shift by 0.5 s, Home and End. " +
-    byId("keys").textContent;
   timeline = new Timeline(redraw);
+  showTimeline();
   timeline.setDuration(walk.duration);
   timeline.showPhases([walk]);
 }

@@ -69,7 +69,7 @@ export class LiveControls {
     const removable = this.selected !== null && this.selected !== "goal" &&
       (this.record.worlds.at(-1)?.obstacles.some(({ name }) => name === this.selected) ?? false);
     byId("hold").disabled = byId("stop").disabled = !running;
-    byId("hold").textContent = this.held() ? "Walk on" : "Pause";
+    byId("hold").textContent = this.held() ? "Walk on" : "Pause robot";
     byId("hold").setAttribute("aria-pressed", this.held());
     byId("add").disabled = !running || !standIn || spare === 0 || !this.view();
     byId("add").textContent = `Add box (${spare} left)`;

@@ -20,6 +20,7 @@ export const layers = [
   ["soles", "sole traces (sampled)", true],
   ["strobe", "body (sampled)", false],
   ["balance", "ZMP, CoM", false],
+  ["bodies", "bodies that proofs use", false],
   ["volumes", "swept volumes", false],
 ];
 
@@ -65,6 +66,7 @@ export class LiveView {
     this.sole = drawn.robot.sole;
     this.groups = Object.fromEntries(
       ["shells", "footsteps", "ghosts", "soles", "strobe"].map((name) => [name, new THREE.Group()]));
+    this.ofRobot = {}; // layers that the robot itself has, by their names
     this.volumes = new VolumesToCome();
     this.groups.volumes = this.volumes.group;
     this.obstacles = new Map(drawn.scene.obstacles.map((json) => {
@@ -75,6 +77,7 @@ export class LiveView {
       stage.scene.add(mesh);
       return [json.name, { name: json.name, mesh, shell, box: mesh.geometry.boundingBox }];
     }));
+    stage.scale = this.shapes.scale;
     stage.setGround(drawn.scene);
     this.areas = drawn.scene.no_step.map(areaMark);
     this.goal = new THREE.Group();
@@ -90,16 +93,20 @@ export class LiveView {
   useTheme() { this.planKey = null; }
 
   show(layer, visible) {
-    if (layer === "balance") this.balance = visible;
-    else this.groups[layer].visible = visible;
-    this.actor?.show("balance", this.balance ?? false);
+    if (layer in this.groups) this.groups[layer].visible = visible;
+    else this.ofRobot[layer] = visible;
+    this.dressRobot();
   }
 
-  /** The robot as an instant has it: a Walk, or an Instant. */
+  dressRobot() {
+    for (const layer of ["balance", "bodies"]) this.actor?.show(layer, this.ofRobot[layer] ?? false);
+  }
+
+  /** The robot as an instant has it: a Walk, or the Past of a live one. */
   showRobot(walk, t) {
     if (!this.actor) {
       this.actor = new Actor(walk, this.shapes, 1, false);
-      this.actor.show("balance", this.balance ?? false);
+      this.dressRobot();
       this.stage.scene.add(this.actor.group);
     }
     this.actor.pose(t);

@@ -1,6 +1,6 @@
 // What the page says beside the view: figures of the plan, and what is drawn.
 
-import { numHalfSteps } from "./episode_record.js";
+import { handOverWords, numHalfSteps } from "./episode_record.js";
 
 const seconds = (value) => `${value.toFixed(2)} s`;
 
@@ -34,6 +34,23 @@ export function planRows(table, { t, plan, grant, world, begun }) {
                Object.assign(document.createElement("td"), { textContent: shortened(value), title: value }));
     return row;
   }));
+}
+
+/** Rows of the table of hand-overs, the latest first. */
+export function handOverRows(table, walks) {
+  const cells = walks.slice(-10).reverse().map((walk) => [
+    seconds(walk.handed_over_s), `${walk.walk}`, `from half-step ${walk.first_changed}`,
+    handOverWords(walk.kind, walk.reason), `${(1000 * (walk.check_s + walk.plan_s + walk.smooth_s)).toFixed(0)} ms`,
+  ]);
+  const text = cells.map((row) => row.join("\t")).join("\n");
+  if (table.dataset.key === text) return;
+  table.dataset.key = text;
+  const line = (name, row) => {
+    const made = document.createElement("tr");
+    made.append(...row.map((textContent) => Object.assign(document.createElement(name), { textContent })));
+    return made;
+  };
+  table.replaceChildren(line("th", ["at", "walk", "changes", "why", "computed"]), ...cells.map((row) => line("td", row)));
 }
 
 /** What the volumes are: of the message `volumes`, null when they are not drawn; `drawn` of them. */

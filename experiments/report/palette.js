@@ -12,7 +12,9 @@ export const grey = "#8a94a0";
 
 // Muted, for the robot: what is rigid with the waist, and the links of its legs.
 export const trunk = "#e1e5ea";
-export const head = "#5d6875";
+export const head = "#d3d9e0";
+export const visor = "#2a323b";
+export const joint = "#7b8692"; // necks, forearms
 export const arm = "#c3cbd4";
 export const legs = ["#a9cbe2", "#f0d9ac"];
 export const feet = [left, right];
@@ -30,11 +32,13 @@ export function faded(colour, opacity) {
 
 const light = {
   ink: "#1d2733", sky: "#f3f5f8", grid: "#5f7084", page: "#ffffff", lines: "#e6eaef",
-  ticks: "#c9d1da", numbers: "#4a5563", support: "#e3eef6", sole: "#c9d1da",
+  ticks: "#c9d1da", numbers: "#4a5563", support: "#e3eef6",
+  leftInk: "#00558a", rightInk: "#8a5a00",
 };
 const dark = {
   ink: "#e6ebf1", sky: "#1b222b", grid: "#8fa0b3", page: "#12171d", lines: "#2a333d",
-  ticks: "#465361", numbers: "#b4bfcb", support: "#22384a", sole: "#465361",
+  ticks: "#465361", numbers: "#b4bfcb", support: "#22384a",
+  leftInk: "#6cbcec", rightInk: "#f0b84d",
 };
 
 /** Colours of what is neither a walk nor a quantity; useTheme chooses them. */

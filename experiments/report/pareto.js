@@ -3,7 +3,8 @@ import uPlot from "uplot";
 import { element, lineKey } from "./elements.js";
 import { drawnFamilies } from "./margin_families.js";
 import { themedAxis } from "./plots.js";
-import { fileName, plotSvg, save } from "./saving.js";
+import { figureSvg } from "./figure_svg.js";
+import { fileName, save } from "./saving.js";
 
 const height = 260; // [px]
 const cap = 0.2999; // [m] margins beyond are not told apart
@@ -35,7 +36,7 @@ function plotOf(parent, walk, families) {
     }))],
   }, [rows.map((row) => row.duration_s), ...shown.map(({ key }) => rows.map((row) => centimetres(row[key])))], body);
   saver.addEventListener("click", () => save(
-    new Blob([plotSvg(plot, title, keys, "duration of the walk [s]")], { type: "image/svg+xml" }),
+    new Blob([figureSvg(plot, keys.map(([label]) => label), "least margin [cm]", "duration of the walk [s]")], { type: "image/svg+xml" }),
     fileName(title, "svg")));
   new ResizeObserver(() => plot.setSize({ width: body.clientWidth, height })).observe(body);
 }

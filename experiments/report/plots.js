@@ -2,7 +2,8 @@
 import uPlot from "uplot";
 import { element, lineKey } from "./elements.js";
 import * as palette from "./palette.js";
-import { fileName, plotPng, plotSvg, save } from "./saving.js";
+import { figureSvg } from "./figure_svg.js";
+import { fileName, plotPng, save } from "./saving.js";
 
 const font = "11px system-ui, sans-serif";
 
@@ -23,11 +24,12 @@ function sampled(curve, walk, times) {
 }
 
 class Plot {
-  constructor(parent, spec, walks, last, hidden, onSeek, onZoom) {
+  constructor(parent, spec, walks, last, kept, onSeek, onZoom) {
     this.last = last; // with the numbers of the time axis
     this.spec = spec;
     this.walks = walks;
-    this.hidden = hidden; // names of curves that are not shown, kept by the page
+    this.kept = kept; // {hidden, picked}: names of curves that are not shown, and the one that is picked
+    this.hidden = kept.hidden;
     const head = element("div", { className: "plot-head" });
     head.append(element("b", { text: spec.title, title: spec.hint }));
     this.keys = spec.curves.filter((curve) => !curve.quiet).map((curve) => {
@@ -37,11 +39,7 @@ class Plot {
       head.append(button);
       return { curve, value, name: curve.label, button };
     });
-    this.groups = (spec.keys ?? []).map(([label, colour]) => {
-      const button = this.key(label, colour);
-      head.append(button);
-      return { name: label, button };
-    });
+    if (spec.picks) head.append(this.picker());
     this.note = element("span", { className: "note" });
     head.append(this.note, element("span", { className: "savers" }, this.saver("PNG"), " ", this.saver("SVG")));
     this.body = element("div", { className: "plot-body" });
@@ -52,12 +50,40 @@ class Plot {
     this.showCurves();
   }
 
+  // The choice of the curve that is shown before all others: at first the one that goes highest.
+  picker() {
+    const { picks } = this.spec;
+    const most = picks.map((pick) => pick.most(this.walks[0]));
+    const highest = picks[most.indexOf(Math.max(...most))] ?? picks[0];
+    this.picked = picks.find(({ name }) => name === this.kept.picked) ?? highest;
+    const select = element("select", { className: "pick" });
+    select.setAttribute("aria-label", `${this.spec.title}: joint`);
+    picks.forEach(({ name }, i) => select.add(new Option(`${name}, up to ${most[i].toFixed(2)}`, name)));
+    select.value = this.picked.name;
+    this.swatch = element("i", { className: "line" });
+    this.swatch.style.background = this.picked.colour;
+    select.addEventListener("change", () => {
+      this.picked = picks.find(({ name }) => name === select.value);
+      this.kept.picked = this.picked.name;
+      this.swatch.style.background = this.picked.colour;
+      this.u.setData(this.data(), false);
+      this.u.redraw();
+      this.showTime(this.t ?? 0);
+    });
+    return element("span", { className: "key" }, this.swatch, select);
+  }
+
+  // Times, and the values of each curve at them.
+  data() {
+    return [this.times, ...this.curveOf.map(({ curve, walk }) => sampled(curve, walk, this.times))];
+  }
+
   // A click hides a curve or shows it; with shift, or twice, it is shown alone, or all are again.
   key(name, colour) {
     const button = lineKey(colour, name, "button");
     button.title = `${name}: hide or show; with shift: alone`;
     button.addEventListener("click", (event) => {
-      const others = [...this.keys, ...this.groups].map((key) => key.name).filter((n) => n !== name);
+      const others = this.keys.map((key) => key.name).filter((n) => n !== name);
       if (event.shiftKey) {
         const alone = !this.hidden.has(name) && others.every((other) => this.hidden.has(other));
         this.hidden.clear();
@@ -70,24 +96,28 @@ class Plot {
     return button;
   }
 
+  // Of each series; of B's, and of those that are in the background, none.
+  names() {
+    return this.curveOf.map(({ curve, walk }) =>
+      (walk !== this.walks[0] || curve.quiet ? "" : curve.both ? this.picked.name : curve.label));
+  }
+
   saver(kind) {
     const button = element("button", { text: kind, className: "save", title: `save this plot as ${kind}` });
     button.addEventListener("click", async () => {
-      const shown = [...this.keys, ...this.groups].filter(({ name }) => !this.hidden.has(name));
-      const keys = shown.map(({ name, button: key }) => [name, key.firstChild.style.background]);
       save(kind === "PNG" ? await plotPng(this.u, this.spec.title)
-        : new Blob([plotSvg(this.u, this.spec.title, keys)], { type: "image/svg+xml" }),
+        : new Blob([figureSvg(this.u, this.names(), this.spec.axis ?? this.spec.title)], { type: "image/svg+xml" }),
            fileName(this.spec.title, kind.toLowerCase()));
     });
     return button;
   }
 
   showCurves() {
-    for (const { name, button } of [...this.keys, ...this.groups]) {
+    for (const { name, button } of this.keys) {
       button.setAttribute("aria-pressed", String(!this.hidden.has(name)));
     }
-    this.u.batch(() => this.curveOf.forEach((curve, i) => {
-      const show = !this.hidden.has(curve.group ?? curve.label);
+    this.u.batch(() => this.curveOf.forEach(({ curve }, i) => {
+      const show = !this.hidden.has(curve.label);
       if (this.u.series[i + 1].show !== show) this.u.setSeries(i + 1, { show });
     }));
   }
@@ -95,23 +125,25 @@ class Plot {
   make(onSeek, onZoom) {
     const { spec, walks } = this;
     const longest = walks.reduce((a, b) => (b.duration > a.duration ? b : a));
-    const times = longest.times;
-    const shown = spec.onlyFirst ? walks.slice(0, 1) : [...walks].reverse();
+    this.times = longest.times;
     const series = [{}];
-    const data = [times];
     const axis = themedAxis();
-    this.curveOf = []; // of each series
-    for (const walk of shown) {
+    this.curveOf = []; // {curve, walk} of each series
+    const picked = spec.picks && {
+      label: "", both: true, value: (walk, at) => this.picked.value(walk, at),
+      get colour() { return this.of.picked.colour; }, of: this,
+    };
+    for (const walk of [...walks].reverse()) {
       const first = walk === walks[0];
-      for (const curve of spec.curves) {
+      for (const curve of [...spec.curves, ...(picked ? [picked] : [])]) {
+        if (!first && spec.onlyFirst && !curve.both) continue;
         series.push({
-          stroke: first ? curve.colour : palette.faded(curve.colour, 0.55),
+          stroke: () => (first ? curve.colour : palette.faded(curve.colour, 0.55)),
           width: curve.quiet ? 1 : first ? 1.8 : 1.2,
           dash: first ? undefined : [4, 3],
           points: { show: false },
         });
-        data.push(sampled(curve, walk, times));
-        this.curveOf.push(curve);
+        this.curveOf.push({ curve, walk });
       }
     }
     const range = spec.fixed
@@ -137,7 +169,7 @@ class Plot {
         series,
         hooks: { drawAxes: [(u) => this.drawLevel(u)] },
       },
-      data,
+      this.data(),
       this.body,
     );
     this.cursor = element("div", { className: "cursor" });
@@ -190,7 +222,10 @@ class Plot {
       const number = curve.value(walk, at);
       if (curve.text) value.textContent = Number.isFinite(number) ? curve.text(number) : "–";
     }
-    if (this.spec.note) this.note.textContent = this.spec.note(walk, at);
+    if (this.picked) {
+      this.note.textContent = this.picked.note(walk, at);
+      this.note.title = this.picked.hint;
+    }
     const x = this.u.valToPos(t, "x");
     this.cursor.hidden = !(x >= -1 && x <= this.u.over.clientWidth + 1);
     this.cursor.style.transform = `translateX(${x}px)`;
@@ -202,7 +237,7 @@ export class Plots {
     this.parent = parent;
     this.onSeek = onSeek;
     this.plots = [];
-    this.hidden = new Map(); // by a plot's title
+    this.kept = new Map(); // by a plot's title
     new ResizeObserver(() => this.resize()).observe(parent);
   }
 
@@ -217,9 +252,9 @@ export class Plots {
       }
     };
     this.plots = specs.map((spec, i) => {
-      if (!this.hidden.has(spec.title)) this.hidden.set(spec.title, new Set());
+      if (!this.kept.has(spec.title)) this.kept.set(spec.title, { hidden: new Set(spec.hidden), picked: null });
       const last = i === specs.length - 1;
-      return new Plot(this.parent, spec, walks, last, this.hidden.get(spec.title), this.onSeek, zoom);
+      return new Plot(this.parent, spec, walks, last, this.kept.get(spec.title), this.onSeek, zoom);
     });
     this.parent.append(element("div", { className: "axis-label", text: label }));
     this.resize();

@@ -9,7 +9,7 @@ import { extentOf } from "./floor_marks.js";
 import { handWalk } from "./hand_walk.js";
 import { addLayerBoxes, layers, offerLayer } from "./layers.js";
 import { firstSentence, gravestInstant, infeasibleList, infeasibleOf } from "./infeasible.js";
-import { worstInstant } from "./least_margins.js";
+import { tellingInstant, worstInstant } from "./least_margins.js";
 import { leastTable } from "./least_table.js";
 import { methodCharts } from "./method_charts.js";
 import { middleOf } from "./pair_line.js";
@@ -47,6 +47,7 @@ let hand = null; // the walk by hand
 let walks = []; // A, and B when there is one
 let actors = [];
 let pending = false;
+let filming = false; // frames of a film are drawn at once, and not again
 
 // What the camera follows: the waist, or the middle between the feet; and the ground's height there.
 function centreNow(walk) {
@@ -67,7 +68,7 @@ function draw() {
 }
 
 function redraw() {
-  if (!stage || pending || actors.length === 0) return;
+  if (!stage || pending || filming || actors.length === 0) return;
   pending = true;
   requestAnimationFrame(() => {
     pending = false;
@@ -97,7 +98,7 @@ function goTo({ t, pair }) {
   const [x, y, z] = middleOf(pair);
   byId("camera").value = "feet";
   byId("follow").checked = false;
-  stage.look("feet", [x, y], 1.15, z);
+  stage.look("feet", [x, y, z], 1.15, 0);
   redraw();
 }
 
@@ -114,7 +115,7 @@ function look() {
   } else if (byId("follow").checked) {
     stage.look(byId("camera").value, centreNow(walks[0]), 2.75);
   } else {
-    stage.look(byId("camera").value, middle, 2.3 + 0.62 * extent);
+    stage.look(byId("camera").value, middle, 2.3, 0.68, 0.62 * extent);
   }
   redraw();
 }
@@ -174,7 +175,7 @@ function chooseWalks() {
   byId("tag-b").hidden = walks.length < 2;
   if (!a) return;
   stageWalks();
-  plots.show(plotList(report.robots[current.robot], a.certificate, report.families), walks,
+  plots.show(plotList(report.robots[current.robot], a, report.families), walks,
              squeezed ? "time [s], of the longer walk squeezed" : "time [s]");
   infeasibleList(byId("infeasible"), current, walks[0], goTo);
   leastTable(byId("least"), walks[0], report.families, goTo);
@@ -231,6 +232,7 @@ function chooseCase(index) {
   if (drawn.length === 0) return;
   if (stage) {
     stage.setScene(report.scenes[current.scene]);
+    stage.scale = shapes[current.robot].scale;
     stage.prints = footprints(current.footsteps, report.robots[current.robot].sole);
     stage.place.add(stage.prints);
   }
@@ -242,7 +244,9 @@ function chooseCase(index) {
   timeline.t = 0;
   chooseWalks();
   look();
-  if (!applyAddress() && isInfeasible(drawn)) goToWorst();
+  if (applyAddress()) return;
+  if (isInfeasible(drawn)) goToWorst();
+  else timeline.seek(tellingInstant(walks[0], report.families)?.t ?? 0);
 }
 
 // The colours of what is drawn change with the system's.
@@ -262,7 +266,13 @@ function changeTheme() {
 const filmed = filmedPage({
   hasView: () => stage !== null && actors.length > 0,
   walks: () => walks,
-  timeline, draw, applyAddress,
+  timeline, applyAddress,
+  draw(t) {
+    filming = true;
+    timeline.seek(t);
+    filming = false;
+    draw();
+  },
   drawnWalks: () => current.walks.filter((walk) => walk.drawn),
 });
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "experiments/report/drawn_mesh.h"
+#include "experiments/report/drawn_rods.h"
 #include "planner/scene/solid_body.h"
 #include "wpg/files/number_text.h"
 #include "wpg/nth.h"
@@ -96,10 +97,19 @@ json RobotJson(const RobotModel& robot) {
     drawn["link"] = body.link;
     bodies.push_back(std::move(drawn));
   }
+  json rods = json::array();
+  for (const DrawnRod& rod : DrawnRods(robot)) {
+    rods.push_back({{"leg", rod.leg},
+                    {"link", rod.link},
+                    {"from", Vector(rod.from_B)},
+                    {"to", Vector(rod.to_B)},
+                    {"radius", Shortened(rod.radius, 6)}});
+  }
   return {{"name", robot.name},
           {"sole", {Shortened(robot.sole_size.x()), Shortened(robot.sole_size.y())}},
           {"legs", std::move(legs)},
-          {"bodies", std::move(bodies)}};
+          {"bodies", std::move(bodies)},
+          {"rods", std::move(rods)}};
 }
 
 TriangleMesh Surface(const ConvexBody& body) { return DrawnMesh(body); }

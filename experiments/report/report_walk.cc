@@ -116,6 +116,24 @@ json CellJson(const std::string& cell) {
   return is_number && std::isfinite(value) ? json(Shortened(value, 6)) : json(cell);
 }
 
+// {least, begin_s, end_s} of each family of a certified walk: what is proved of all times, and the
+// interval where that is least.
+json ProvedJson(const fs::path& certificate) {
+  const CsvTable table = ReadCsv(certificate.string());
+  const std::vector<double> begin = table.Numbers("begin_s"), end = table.Numbers("end_s"),
+                            margin = table.Numbers("margin"), bound = table.Numbers("bound");
+  const std::vector<std::string> families = table.Texts("family");
+  json proved = json::object();
+  for (size_t i = 0; i < families.size(); ++i) {
+    const double least = margin[i] - bound[i];
+    if (!std::isfinite(least)) continue;
+    json& one = proved[families[i]];
+    if (one.is_object() && one["least"].get<double>() <= least) continue;
+    one = {{"least", least}, {"begin_s", begin[i]}, {"end_s", end[i]}};
+  }
+  return proved;
+}
+
 }  // namespace
 
 json MotionJson(const fs::path& trajectory, const std::vector<std::string>& columns,
@@ -151,6 +169,9 @@ json WalkJson(const fs::path& folder, double spacing) {
       throw InputError({(folder / "certificate.json").string() + ": no '" + key + "'"});
     }
     walk["certificate"][key] = certificate[key];
+  }
+  if (certificate["verdict"] == "certified") {
+    walk["certificate"]["proved"] = ProvedJson(folder / "certificate.csv");
   }
   if (certificate.contains("tube")) walk["certificate"]["tube"] = certificate["tube"];
   return walk;

@@ -32,8 +32,6 @@ export function plotPng(u, title) {
   return new Promise((resolve) => canvas.toBlob(resolve, "image/png"));
 }
 
-const escaped = (text) => text.replace(/[&<>"]/g, (c) => `&#${c.charCodeAt(0)};`);
-
 /** Ticks of an axis within a range, about `count` of them. */
 export function ticks(low, high, count) {
   const rough = (high - low) / count;
@@ -44,64 +42,6 @@ export function ticks(low, high, count) {
     list.push(Number((k * step).toPrecision(12)));
   }
   return list;
-}
-
-// Lines of a series in the plot's range; gaps where nothing is known.
-function path(xs, ys, place) {
-  let text = "";
-  let joined = false;
-  for (let i = 0; i < xs.length; ++i) {
-    const known = ys[i] !== null && ys[i] !== undefined;
-    if (known) text += `${joined ? "L" : "M"}${place(xs[i], ys[i]).map((v) => v.toFixed(2)).join(" ")}`;
-    joined = known;
-  }
-  return text;
-}
-
-/**
- * A plot's shown curves in its range as SVG, on white, with its title and keys [[label, colour]].
- * `xLabel` is that of the axis across.
- */
-export function plotSvg(u, title, keys, xLabel = "time [s]") {
-  const [width, height, left, top, right, bottom] = [720, 300, 58, 44, 12, 40];
-  const { x, y } = u.scales;
-  const place = (vx, vy) => [
-    left + ((vx - x.min) / (x.max - x.min)) * (width - left - right),
-    height - bottom - ((vy - y.min) / (y.max - y.min)) * (height - top - bottom),
-  ];
-  const parts = [];
-  for (const tick of ticks(x.min, x.max, 8)) {
-    const [at] = place(tick, y.min);
-    parts.push(`<path d="M${at} ${top}V${height - bottom}" stroke="#dddddd"/>` +
-      `<text x="${at}" y="${height - bottom + 15}" text-anchor="middle">${tick}</text>`);
-  }
-  for (const tick of ticks(y.min, y.max, 5)) {
-    const [, at] = place(x.min, tick);
-    parts.push(`<path d="M${left} ${at}H${width - right}" stroke="#dddddd"/>` +
-      `<text x="${left - 6}" y="${at + 4}" text-anchor="end">${tick}</text>`);
-  }
-  const curves = u.series.slice(1).map((series, i) => {
-    if (!series.show) return "";
-    const colour = typeof series.stroke === "function" ? series.stroke(u, i + 1) : series.stroke;
-    const dash = series.dash ? ` stroke-dasharray="${series.dash.join(" ")}"` : "";
-    return `<path d="${path(u.data[0], u.data[i + 1], place)}" fill="none" ` +
-      `stroke="${escaped(colour)}" stroke-width="${series.width ?? 1}"${dash}/>`;
-  });
-  let at = left;
-  const legend = keys.map(([label, colour]) => {
-    const text = `<path d="M${at} 32h14" stroke="${escaped(colour)}" stroke-width="3"/>` +
-      `<text x="${at + 18}" y="36">${escaped(label)}</text>`;
-    at += 34 + 7 * label.length;
-    return text;
-  });
-  return `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" ` +
-    `viewBox="0 0 ${width} ${height}" font-family="sans-serif" font-size="11">` +
-    `<rect width="${width}" height="${height}" fill="#ffffff"/>` +
-    `<text x="${left}" y="18" font-size="13" font-weight="bold">${escaped(title)}</text>` +
-    `${legend.join("")}${parts.join("")}<clipPath id="in"><rect x="${left}" y="${top}" ` +
-    `width="${width - left - right}" height="${height - top - bottom}"/></clipPath>` +
-    `<g clip-path="url(#in)">${curves.join("")}</g>` +
-    `<text x="${(left + width - right) / 2}" y="${height - 8}" text-anchor="middle">${escaped(xLabel)}</text></svg>`;
 }
 
 const pause = (ms) => new Promise((resolve) => setTimeout(resolve, ms));

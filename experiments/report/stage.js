@@ -92,10 +92,15 @@ const directions = {
   feet: [0.72, -0.92, 0.34],
 };
 
+// Where a film is drawn without a graphics card, its edges and shadows would take most of the time.
+const isFilm = location.search === "?film";
+const lowView = 320; // [px]
+
 export class Stage {
   constructor(canvas, onChange) {
     this.canvas = canvas;
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
+    this.scale = 1; // of the robot: its height over that of HRP-2
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: !isFilm });
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = THREE.PCFShadowMap;
@@ -104,7 +109,7 @@ export class Stage {
     this.scene.add(new THREE.HemisphereLight("#ffffff", "#b3bac4", 2.1));
     this.sun = new THREE.DirectionalLight("#fffaf2", 1.7);
     this.sun.castShadow = true;
-    this.sun.shadow.mapSize.set(2048, 2048);
+    this.sun.shadow.mapSize.setScalar(isFilm ? 1024 : 2048);
     this.sun.shadow.radius = 3;
     this.sun.shadow.bias = -0.0005;
     this.sun.shadow.normalBias = 0.01;
@@ -165,12 +170,16 @@ export class Stage {
     }
   }
 
-  /** A direction of `directions`, at `height` above a point of the ground, `distance` [m] away. */
-  look(name, [x, y, ground = 0], distance, height = 0.68) {
+  /**
+   * A direction of `directions`, at `height` above a point of the ground, `distance` [m] away, both of
+   * a robot of HRP-2's size; `more` [m] farther for a robot of any size.
+   */
+  look(name, [x, y, ground = 0], distance, height = 0.68, more = 0) {
     const direction = new THREE.Vector3(...directions[name]);
+    const far = this.canvas.clientHeight < lowView ? 1.15 : 1; // names lie over the view
     this.ground = ground;
-    this.controls.target.set(x, y, name === "top" ? ground : ground + height);
-    this.camera.position.copy(this.controls.target).addScaledVector(direction, distance);
+    this.controls.target.set(x, y, name === "top" ? ground : ground + this.scale * height);
+    this.camera.position.copy(this.controls.target).addScaledVector(direction, far * (this.scale * distance + more));
     this.controls.update();
   }
 

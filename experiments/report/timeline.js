@@ -38,6 +38,13 @@ export class Timeline {
     window.addEventListener("keydown", (event) => this.key(event));
   }
 
+  /** The end has moved to `duration`; goes there where that is followed. */
+  extend(duration, follow) {
+    this.duration = duration;
+    this.scrub.max = duration;
+    this.seek(follow ? duration : this.t);
+  }
+
   setDuration(duration) {
     this.duration = duration;
     this.scrub.max = duration;

@@ -24,8 +24,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr int kFramesAtOnce = 10;  // between two looks at Ctrl-C
-
 // A folder of its own for the page and the browser's profile, gone with this object, and when a
 // signal ends the process. Its name is short: Chromium does not start where the paths of its
 // sockets, below it, have more than 107 characters.
@@ -97,9 +95,10 @@ std::optional<std::string> WalkVideo(std::string_view page, const VideoOptions& 
   try {
     HeadlessBrowser browser(*program, folder.path(), options.width, options.height,
                             std::move(stop));
-    browser.Load(file);
+    browser.Load(file, "?film");
     const json asked = {{"seconds", options.seconds ? json(*options.seconds) : json(nullptr)},
-                        {"show", options.show}};
+                        {"show", options.show},
+                        {"rate", options.rate}};
     const json begun = browser.Evaluate("halfstepFilm.begin(" + asked.dump() + ")");
     if (begun.contains("unknown")) {
       throw InputError({"--show: " + begun["unknown"].get<std::string>()});

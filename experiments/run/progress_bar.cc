@@ -9,8 +9,9 @@
 
 namespace halfstep {
 
-ProgressBar::ProgressBar(std::string label, bool quiet)
+ProgressBar::ProgressBar(std::string label, bool quiet, std::string of)
     : label_(std::move(label)),
+      of_(std::move(of)),
       enabled_(!quiet && isatty(STDERR_FILENO) == 1),
       begin_(std::chrono::steady_clock::now()),
       last_(begin_) {}
@@ -27,14 +28,13 @@ void ProgressBar::Update(double done) {
   drawn_ = true;
   constexpr int kWidth = 30;
   const int filled = static_cast<int>(done * kWidth);
-  const double left = done > 0.0 ? elapsed.count() * (1.0 - done) / done : 0.0;
-  std::fputs(Formatted("\r\033[K%s [%.*s%*s] %3.0f %%, %.0f s left%s", label_.c_str(), filled,
-                       "##############################", kWidth - filled, "", 100.0 * done, left,
-                       best_.c_str())
+  std::fputs(Formatted("\r\033[K%s [%.*s%*s] %3.0f %%%s%s", label_.c_str(), filled,
+                       "##############################", kWidth - filled, "", 100.0 * done,
+                       of_.c_str(), best_.c_str())
                  .c_str(),
              stderr);
 }
 
-void ProgressBar::Best(double duration) { best_ = Formatted(", best walk %.3f s", duration); }
+void ProgressBar::Best(double duration) { best_ = Formatted(", best so far %.3f s", duration); }
 
 }  // namespace halfstep

@@ -5,12 +5,14 @@
 
 namespace halfstep {
 
-/// A bar with an estimate of what remains on standard error, when that is a terminal, `quiet` is
-/// not asked for and the work lasts more than a second; otherwise nothing.
+/// A bar with the share of the work that is done on standard error, when that is a terminal,
+/// `quiet` is not asked for and the work lasts more than a second; otherwise nothing. How long the
+/// rest will take is not told: searches end by counted work, which takes a different time each.
 class ProgressBar {
  public:
-  /// Nothing is drawn before the first progress is told.
-  ProgressBar(std::string label, bool quiet);
+  /// `of`: what the share is of, such as " of the effort". Nothing is drawn before the first
+  /// progress is told.
+  ProgressBar(std::string label, bool quiet, std::string of = {});
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
@@ -21,7 +23,7 @@ class ProgressBar {
   void Best(double duration);
 
  private:
-  std::string label_;
+  std::string label_, of_;
   std::string best_;  // in words
   bool enabled_;
   bool drawn_ = false;

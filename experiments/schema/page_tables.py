@@ -8,8 +8,9 @@ page_tables.py --check SCHEMA …   writes nothing; exit status 1 when a page wo
 A table that follows a line <!-- schema: WHAT --> is one of:
   parameters, margins    a row a family. Cells below `unit`, `valid`, `scale`, `raised` and
                          `demanded by default` are written here, others are the page's own
-  keys of FILE           a row a key, all written here if the header is that of explain-config
-                         --markdown; else the page's own words of every key, ` .b` after `a`: a.b
+  keys of FILE           a row a key, all written here if the header is KEY_HEADER, those of a map
+                         with the keys of an earlier one left out; else the page's own words of
+                         every key, ` .b` after `a`: a.b
   columns of TABLE       the page's own words of every column; one row may be of several, `a, b` or
                          `a` … `d`
   tables of FOLDER       the same, a row a table: every column of it is in the second cell
@@ -22,7 +23,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 MARK = re.compile(r"<!-- schema: (.+?) -->")
-KEY_HEADER = ["key", "type [unit]", "default", "valid", "meaning"]
+KEY_HEADER = ["key", "type [unit], valid", "default", "meaning"]
 
 
 def cells_of(row):
@@ -82,6 +83,27 @@ def named(cell, all_names):
     return names
 
 
+def rows_of_keys(rows):
+    """Those of explain-config --markdown, with what is valid beside the type."""
+    merged = []
+    for row in rows:
+        key, kind, default, allowed, meaning = cells_of(row)
+        merged.append([key, kind + (f", {allowed}" if allowed else ""), default, meaning])
+    told = {}  # what a map has, with the map's name
+    left_out = set()
+    for cells in merged:
+        name = cells[0].strip("`")
+        below = [(other[0].strip("`").removeprefix(f"{name}."), *other[1:]) for other in merged
+                 if other[0].startswith(f"`{name}.")]
+        if len(below) < 2:
+            continue
+        first = told.setdefault(repr(below), name)
+        if first != name:
+            cells[3] += f"; its keys are those of `{first}`"
+            left_out.update(f"`{name}.{key}`" for key, *_ in below)
+    return [row_of(cells) for cells in merged if cells[0] not in left_out]
+
+
 def difference(named_here, there):
     """Complaints about names that are not there, there twice, or not named."""
     return ([f"`{name}` is not there" for name in named_here if name not in there] +
@@ -134,7 +156,7 @@ def brought_in_line(what, header, table, schema):
         return rewritten(rows_of_families(schema[what]), header, table)
     if kind == "keys" and of in keys:
         if header == KEY_HEADER:
-            return [row["row"] for row in schema["keys"][of]], []
+            return rows_of_keys([row["row"] for row in schema["keys"][of]]), []
         return table, key_complaints(table, keys[of])
     if kind == "columns" and of in columns:
         return table, column_complaints(table, columns[of], keys["config"])

@@ -16,7 +16,8 @@
 namespace halfstep {
 namespace {
 
-constexpr double kFirstTurn = 1.0;       // effort until the other kind of search looks for a plan
+constexpr double kFirstTurn = 0.05;      // effort until another kind of search looks for a plan
+constexpr double kFewest = 5.0;          // times a turn, for A* of the fewest footsteps
 constexpr double kImprovingTurn = 0.02;  // effort of the first turns that improve it
 constexpr int kRestarts = 2;             // of a random tree, a round
 constexpr int kPlaces = 4000;            // of the map
@@ -51,6 +52,12 @@ class BestSearch {
       if (!monitor_.plans().empty()) break;
       if (monitor_.stopped()) return {};
       if (no_tree && edges_ == nullptr) return {.exhausted = true};
+      if (edges_ == nullptr) {
+        monitor_.Allow(kFewest * turn);
+        FewestSteps({kFirstWeight});
+        if (!monitor_.plans().empty()) break;
+        if (monitor_.stopped()) return {};
+      }
       monitor_.Allow(no_tree ? kUnlimited : turn);  // in time A* has the last word
       if (SearchWith(kFirstWeight)) return {.exhausted = true};
       if (monitor_.stopped()) return {};
@@ -80,8 +87,8 @@ class BestSearch {
   bool Round(double turn) {
     StepPlan fewest;
     if (edges_ == nullptr) {  // in time they are what costs least
-      monitor_.Allow(4.0 * turn);
-      fewest = FewestSteps();
+      monitor_.Allow(kFewest * turn);
+      fewest = FewestSteps({kFirstWeight, 2.5, 1.5, 1.0});
     }
     if (!fewest.ks.empty() && !monitor_.stopped()) {
       monitor_.Allow(turn);
@@ -144,7 +151,7 @@ class BestSearch {
   }
 
   // A* for the fewest footsteps, whatever they cost: many plans have as few, so it soon finds one.
-  StepPlan FewestSteps() {
+  StepPlan FewestSteps(const std::vector<double>& weights) {
     PlanRequest request = request_;
     request.cost.kind = CostKind::kSteps;
     StepGraph graph(request, graph_.elements());
@@ -163,7 +170,7 @@ class BestSearch {
       return StepsToGo{.bound = static_cast<double>(graph.LeastSteps(state)),
                        .guess = std::isfinite(way) ? std::max(guess, way / per_step) : guess + 3.0};
     };
-    SearchSteps(starts_, to_go, {.weights = {2.5, 1.5, 1.0}, .cells = Cells()}, &graph, &monitor);
+    SearchSteps(starts_, to_go, {.weights = weights, .cells = Cells()}, &graph, &monitor);
     if (monitor.plans().empty()) return {};
     StepPlan plan = monitor.plans().back();
     plan.cost = 0.0;

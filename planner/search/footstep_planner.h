@@ -102,8 +102,11 @@ struct [[nodiscard]] PlanResult {
   StopReason stop = StopReason::kGoOn;  ///< what ended it, when `exhausted` is false
   std::int64_t nodes = 0;    ///< states that a planner keeps or expands, over all its searches
   std::int64_t queries = 0;  ///< of half-steps: DownIsFree and UpIsFree
-  /// Both in one unit (PlanProgress::effort).
-  double effort() const { return PlanProgress{.nodes = nodes, .queries = queries}.effort(); }
+  std::int64_t samples = 0;  ///< of random trees that came to no node
+  /// All three in one unit (PlanProgress::effort).
+  double effort() const {
+    return PlanProgress{.nodes = nodes, .queries = queries, .samples = samples}.effort();
+  }
   int refusals = 0;  ///< plans that `accepts` refused
   double time_to_first = std::numeric_limits<double>::quiet_NaN();  ///< plan, by the clock [s]
   double time = std::numeric_limits<double>::quiet_NaN();           ///< in all [s]

@@ -184,6 +184,7 @@ PlanResult PlanWith(const PlanRequest& request, const std::vector<int>& elements
   }
   result.stop = monitor.reason();
   result.nodes = monitor.progress().nodes;
+  result.samples = monitor.progress().samples;
   result.queries = graph.queries();
   result.time_to_first = monitor.time_to_first();
   result.time = monitor.elapsed();

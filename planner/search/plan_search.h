@@ -43,7 +43,8 @@ class PlanMonitor {
   void Allow(double effort) { turn_ends_ = progress_.effort() + effort; }
   /// Whether planning is over, not only this search's turn.
   bool stopped() const { return reason_ != StopReason::kGoOn; }
-  void CountNode();  ///< to be called for each node
+  void CountNode();                            ///< to be called for each node
+  void CountSample() { ++progress_.samples; }  ///< for each sample of a tree that came to no node
   /// Keeps a plan if it is cheaper than all before, and returns whether it is.
   bool Offer(StepPlan plan);
 

@@ -15,7 +15,9 @@ double StateDistance(const Pose2& a, const Pose2& b, bool with_yaw) {
   const double dx = a.x - b.x, dy = a.y - b.y;
   const double way = std::sqrt(dx * dx + dy * dy);
   if (!with_yaw) return way;
-  return way + kMetresPerRadian * std::fabs(std::remainder(a.yaw - b.yaw, 2.0 * std::numbers::pi));
+  double turn = a.yaw - b.yaw;
+  if (std::fabs(turn) > std::numbers::pi) turn = std::remainder(turn, 2.0 * std::numbers::pi);
+  return way + kMetresPerRadian * std::fabs(turn);
 }
 
 StateBuckets::StateBuckets(const Eigen::AlignedBox2d& area) : area_(area) {

@@ -204,6 +204,7 @@ StepTree::Growth StepTree::Grow(const TreeSample& sample) {
     }
   }
   if (Nth(nodes_, index).untried == 0) buckets_.Remove(index, from);
+  if (growth == Growth::kTrapped) monitor_.CountSample();
   return growth;
 }
 

@@ -1,5 +1,7 @@
 #include "planner/search/termination.h"
 
+#include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace halfstep {
@@ -36,9 +38,12 @@ Termination WhenNotImprovedFor(std::int64_t nodes) {
 }
 
 Termination WhenPlannedAfter(double effort) {
-  return [effort](const PlanProgress& progress) {
-    return progress.has_plan() && progress.effort() >= effort ? StopReason::kEnough
-                                                              : StopReason::kGoOn;
+  constexpr double kAsLong = 3.0;  // of what the first plan took
+  return [effort, first = std::optional<double>()](const PlanProgress& progress) mutable {
+    if (!progress.has_plan()) return StopReason::kGoOn;
+    if (!first) first = progress.effort();
+    return progress.effort() >= std::max(effort, kAsLong * *first) ? StopReason::kEnough
+                                                                   : StopReason::kGoOn;
   };
 }
 

@@ -3,6 +3,7 @@
 
 #include "smoothing/margins/family_class.h"
 #include "smoothing/margins/tube_levers.h"
+#include "smoothing/walk/walk_rounding.h"
 #include "wpg/nth.h"
 
 namespace halfstep {
@@ -128,10 +129,12 @@ class ClearanceMargin final : public MarginStatements {
     const Posture& posture = interval.motion.posture;
     BodyClearances::Scratch& scratch = interval.mid.scratch().bodies;
     const double demanded = interval.mid.demanded(family());
-    const double rounding = interval.mid.rounding();
+    const double rounding = DistanceRounding(interval.motion.jet.value);
     const double cap = interval.mid.limits().clearance_cap;
     const double t = interval.mid.t();
-    const double half_width = interval.motion.half_width;
+    // Obstacles move by the exact time.
+    const double half_width =
+        interval.motion.half_width + TimeRounding(interval.mid.walk(), interval.mid.at().half_step);
     FamilyProof proof;
     std::erase_if(*open, [&](uint16_t body) {
       if (proof.violated) return false;

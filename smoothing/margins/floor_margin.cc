@@ -84,13 +84,14 @@ class FloorMargin final : public WholeFamily {
   void AddBounds(const MarginInterval& interval, TightestStatement* tightest) const override {
     const Instant& mid = interval.mid;
     const IntervalMotion& motion = interval.motion;
-    const double rounding = mid.rounding();
     if (!IsWatched(mid)) {
-      tightest->Add(Of(kUnlimited, -1), rounding);
+      tightest->Add(Of(kUnlimited, -1), 0.0);
       tightest->count = count();
       return;
     }
     const int foot = FootIndex(mid.swing());
+    const WalkState& x = motion.jet.value;
+    const double rounding = PlanarRounding(x[foot], x[foot + 1]) + DistanceRounding(x);
     const double lifted = motion.Change(foot + 2);
     tightest->Add(OfFloor(mid), lifted + rounding);
     if (place_.solids.empty()) return;
@@ -102,7 +103,7 @@ class FloorMargin final : public WholeFamily {
         interval.with_margins ? CapOf(mid.limits()) : std::max(mid.demanded(family()), 0.0) + kMore;
     std::vector<SolidGap> gaps;
     place_.solids.Near(SoleOf(mid), cap + moved + lifted, &gaps);
-    tightest->Add(Of(cap, Index(mid.swing())), rounding);
+    tightest->Add(Of(cap, Index(mid.swing())), 0.0);
     for (const SolidGap& gap : gaps) {
       const Margin margin = OfSolid(mid, gap);
       tightest->Add(margin, margin.value - gap.LeastAfter(moved, lifted) + rounding);

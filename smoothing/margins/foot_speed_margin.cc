@@ -1,5 +1,6 @@
 #include "smoothing/margins/family_class.h"
 #include "smoothing/margins/swing_foot_family.h"
+#include "wpg/rounded.h"
 
 namespace halfstep {
 namespace {
@@ -43,7 +44,10 @@ class FootSpeedMargin final : public SwingFootFamily<FootSpeedMargin> {
   }
   double Change(const MarginInterval& interval) const {
     const IntervalMotion& motion = interval.motion;
-    return motion.half_width * motion.second.segment<3>(FootIndex(interval.mid.swing())).norm();
+    const int foot = FootIndex(interval.mid.swing());
+    return motion.half_width * motion.second.segment<3>(foot).norm() +
+           motion.off.first.segment<3>(foot).sum() +
+           4.0 * kRoundoff * motion.jet.first.segment<3>(foot).norm();
   }
 
  private:

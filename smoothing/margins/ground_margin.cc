@@ -67,14 +67,15 @@ class GroundMargin final : public WholeFamily {
     const BodyHeights& heights = place_.heights;
     const IntervalMotion& motion = interval.motion;
     const WalkState& x = motion.jet.value;
-    const double rounding = interval.mid.rounding();
+    const double rounding = DistanceRounding(x);
     for (int body : heights.on_feet()) {
       const Side side = static_cast<Side>(Nth(place_.robot.bodies, body).leg);
-      const double least = interval.LeastSole(side) - heights.floor();
+      const double off = motion.off.value[FootIndex(side) + 2];
+      const double least = interval.LeastSole(side) - off - heights.floor();
       // On the floor or above it for all t, below it at the midpoint, or neither is known.
       const double margin = heights.OnFoot(body, x);
       const bool open = least < -kSoleRounding && margin > 0.0;
-      tightest->Add(Of(open ? std::nan("") : margin, body), rounding);
+      tightest->Add(Of(open ? std::nan("") : margin, body), 0.0);
     }
     for (int body : heights.of_legs()) {
       const double change = Nth(motion.displacement, body);

@@ -39,8 +39,6 @@ class Instant {
   const LocalTime& at() const { return at_; }           ///< its name in the walk
   double t() const { return walk_.Absolute(at_); }      ///< absolute time in the walk [s]
   const WalkJet& jet() const { return jet_; }  ///< all quantities and two time derivatives, in W
-  /// What rounding may do here to a place, an angle or a speed (Rounding::Of).
-  double rounding() const { return place_.rounding.Of(jet_.value); }
   /// The step whose foot is in the air (its up half-step is 2·step), or −1. swing() is that foot,
   /// and has a meaning only when there is one.
   int step_in_air() const { return step_; }

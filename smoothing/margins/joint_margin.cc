@@ -62,8 +62,9 @@ class JointMargin final : public JointFamily {
     ForEachJoint([&](size_t s, int j, const LegJoint& joint, int subject) {
       const double q = motion.posture.ik[s].q[j], speed = motion.posture.speeds[s][j];
       const double acceleration = motion.joints[s].acceleration[j];
+      const LegRounding& off = motion.rounding.legs[s];
       tightest->Add(Of(std::min(q - joint.lower, joint.upper - q), subject),
-                    h * (std::abs(speed) + 0.5 * h * acceleration) + interval.mid.rounding());
+                    h * (std::abs(speed) + off.speeds[j] + 0.5 * h * acceleration) + off.q[j]);
     });
   }
 

@@ -50,8 +50,9 @@ class JointSpeedMargin final : public JointSizeFamily<JointSpeedMargin> {
   void AddBounds(const MarginInterval& interval, TightestStatement* tightest) const override {
     const IntervalMotion& motion = interval.motion;
     ForEachJoint([&](size_t s, int j, const LegJoint& joint, int subject) {
-      tightest->Add(Of(Limit(interval.mid, joint) - std::abs(motion.posture.speeds[s][j]), subject),
-                    motion.half_width * motion.joints[s].acceleration[j] + interval.mid.rounding());
+      tightest->Add(
+          Of(Limit(interval.mid, joint) - std::abs(motion.posture.speeds[s][j]), subject),
+          motion.half_width * motion.joints[s].acceleration[j] + motion.rounding.legs[s].speeds[j]);
     });
   }
 };

@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <cmath>
 
 #include "smoothing/margins/family_class.h"
 #include "smoothing/margins/swing_foot_family.h"
+#include "wpg/rounded.h"
 
 namespace halfstep {
 namespace {
@@ -58,8 +60,10 @@ class LandingSpeedMargin final : public SwingFootFamily<LandingSpeedMargin> {
     const Instant& mid = interval.mid;
     const int z = Height(mid);
     const double here = HeightAbove(mid), lower = here - interval.motion.Change(z);
-    return Allowed(mid, here) - Allowed(mid, lower) +
-           interval.motion.half_width * interval.motion.second[z];
+    // Both heights, and their difference from the landing.
+    const double off =
+        interval.motion.off.value[z] + 4.0 * kRoundoff * std::abs(mid.jet().value[z]);
+    return Allowed(mid, here) - Allowed(mid, lower - off) + interval.motion.RateChange(z);
   }
 
  private:

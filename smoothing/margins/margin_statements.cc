@@ -5,10 +5,15 @@
 #include <limits>
 
 #include "wpg/nth.h"
+#include "wpg/rounded.h"
 
 namespace halfstep {
 
-void TightestStatement::Add(const Margin& added, double change) {
+void TightestStatement::Add(const Margin& added, double given) {
+  // Sums and products of less than a thousand numbers ≥ 0, and the margin's own difference.
+  const double change = std::isfinite(added.value) ? given * (1.0 + 1024.0 * kRoundoff) +
+                                                         8.0 * kRoundoff * std::abs(added.value)
+                                                   : given;
   const double spare = added.value - change;
   // What is not a number stays, and meets no demand.
   if (count++ == 0 || std::isnan(spare) || spare < margin.value - bound) {

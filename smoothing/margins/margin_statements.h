@@ -18,7 +18,8 @@ struct TightestStatement {
   double bound = 0.0;  ///< how much the margin changes at most [its unit]
   int count = 0;       ///< of all that were added
 
-  /// Adds a statement whose margin changes by at most `change` [its unit].
+  /// Adds a statement whose margin changes by at most `change` [its unit], but for the rounding of
+  /// that number and of what it was subtracted to (smoothing/README.md, "Rounding", 1).
   void Add(const Margin& added, double change);
   /// Counts a statement with at least `spare` to spare, without its margin. Returns false, and
   /// counts nothing, when it may be the tightest.

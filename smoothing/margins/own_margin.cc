@@ -63,7 +63,7 @@ class OwnMargin final : public WholeFamily {
       const Margin margin = MarginOf(i, &interval.mid);
       if (margin.value == kUnlimited) continue;
       const OwnStatement& own = *Nth(all_, i);
-      tightest->Add(margin, own.Change(interval) / own.scale() + interval.mid.rounding());
+      tightest->Add(margin, own.Change(interval) / own.scale());
     }
   }
 

@@ -84,7 +84,7 @@ class ReachMargin final : public WholeFamily {
     for (int s = 0; s < 2; ++s) {
       const size_t i = static_cast<size_t>(s);
       tightest->Add(Of(interval.motion.posture.ik[i].reach_margin, 6 * s + 3),
-                    interval.motion.leg_length_change[i] + interval.mid.rounding());
+                    interval.motion.leg_length_change[i]);
     }
   }
 };

@@ -124,7 +124,7 @@ class SelfClearanceMargin final : public MarginStatements {
     const IntervalMotion& motion = interval.motion;
     BodyClearances::Scratch& scratch = interval.mid.scratch().bodies;
     const double demanded = interval.mid.demanded(family());
-    const double rounding = interval.mid.rounding();
+    const double rounding = DistanceRounding(motion.jet.value);
     const double cap = interval.mid.limits().clearance_cap;
     FamilyProof proof;
     clearances.Place(motion.posture, &scratch);

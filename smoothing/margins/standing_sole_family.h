@@ -60,7 +60,9 @@ class StandingSoleFamily : public WholeFamily {
       // A sole that stands does not move: its quantities change by 0 and rounding.
       const Margin margin = OfSole(interval.mid, side);
       const double moved = std::isinf(margin.value) ? 0.0 : Moved(interval.motion, side);
-      tightest->Add(margin, moved + interval.mid.rounding());
+      const Eigen::Vector2d at = FootPose(interval.motion.jet.value, side).position();
+      tightest->Add(margin,
+                    std::isinf(margin.value) ? 0.0 : moved + PlanarRounding(at.x(), at.y()));
     }
   }
 

@@ -34,8 +34,7 @@ class SwingFootFamily : public WholeFamily {
  protected:
   void AddBounds(const MarginInterval& interval, TightestStatement* tightest) const final {
     const Margin margin = Least(&interval.mid, kUnlimited);
-    tightest->Add(margin,
-                  (margin.subject < 0 ? 0.0 : self().Change(interval)) + interval.mid.rounding());
+    tightest->Add(margin, margin.subject < 0 ? 0.0 : self().Change(interval));
   }
 
  private:

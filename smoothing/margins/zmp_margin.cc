@@ -55,13 +55,17 @@ class ZmpMargin final : public SupportFamily {
   void AddBounds(const MarginInterval& interval, TightestStatement* tightest) const override {
     const IntervalMotion& motion = interval.motion;
     const double h = motion.half_width;
-    const double change = h * (motion.jet.first.segment<2>(kZmpX).norm() +
-                               0.5 * h * motion.second.segment<2>(kZmpX).norm());
+    const double change =
+        h * (motion.jet.first.segment<2>(kZmpX).norm() + motion.off.first.segment<2>(kZmpX).sum() +
+             0.5 * h * motion.second.segment<2>(kZmpX).norm()) +
+        motion.off.value.segment<2>(kZmpX).sum();
     const WalkState& x = motion.jet.value;
     const SupportPolygon polygon =
         SupportAt(interval.mid.walk(), interval.mid.at(), x, interval.mid.robot().sole_size);
-    tightest->Add(Of(polygon.Margin(x.segment<2>(kZmpX)), interval.mid.step_in_air()),
-                  change + interval.mid.rounding());
+    const double margin = polygon.Margin(x.segment<2>(kZmpX));
+    tightest->Add(
+        Of(margin, interval.mid.step_in_air()),
+        change + SupportRounding(x, motion.off.value, interval.mid.robot().sole_size, margin));
   }
 };
 

@@ -132,11 +132,29 @@ void RequestGiven(Fields& fields, const MethodOptions&) {
   fields.Text("variables", &variables, {});
 }
 
+// When a solver suits, for `halfstep list methods`.
+std::string SolverMeaning(const std::string& solver) {
+  if (solver == "halfstep/sqp")
+    return "our SQP: the shortest walks of the shipped configs; take it first";
+  if (solver == "halfstep/barrier")
+    return "our barrier: stays inside the limits, walks a little longer";
+  if (solver == "ipopt") return "Ipopt, interior point: a second opinion on halfstep/sqp";
+  if (solver == "ceres/auglag") return "Ceres, augmented Lagrangian: to compare solvers";
+  if (solver == "nlopt/slsqp") return "NLopt's dense SQP: a second opinion, on short walks";
+  if (solver == "nlopt/bobyqa")
+    return "NLopt, within bounds alone: refuses programs with rows, as these";
+  if (solver == "nlopt/cobyla")
+    return "NLopt, without derivatives: for costs of one's own, few variables";
+  if (solver == "nlopt/isres")
+    return "NLopt, global and random: for few variables, with much effort";
+  if (solver.starts_with("nlopt/")) return "NLopt: to compare solvers";
+  return "the program by this solver of one's own";
+}
+
 std::shared_ptr<const Smoother> SolverMethod(const std::string& solver,
                                              const std::shared_ptr<const opt::Solver>& own = {}) {
-  return std::make_shared<NamedSmoother>(
-      solver, "smoothing.optimizer.program by this solver, from typical forms",
-      Groups{OptimizerGroup()}, BySolver(solver, own), RequestSolver);
+  return std::make_shared<NamedSmoother>(solver, SolverMeaning(solver), Groups{OptimizerGroup()},
+                                         BySolver(solver, own), RequestSolver);
 }
 
 }  // namespace
@@ -149,19 +167,24 @@ Methods Methods::Standard() {
                                                   std::move(search), std::move(request)));
   };
   const Groups none, dichotomy = {DichotomyGroup()}, optimizer = {OptimizerGroup()};
-  add("dichotomy", "bisect each overlap in turn, with the options of smoothing.dichotomy",
-      dichotomy, DichotomyWith([](DichotomyOptions*) {}));
-  add("dichotomy/published", "the same as published: 0.05 s, one pass, caps 0.8 and 0.76", none,
-      DichotomyWith([](DichotomyOptions* d) {
+  add("dichotomy", "each overlap bisected in turn: quick, to compare others with", dichotomy,
+      DichotomyWith([](DichotomyOptions*) {}));
+  add("dichotomy/published",
+      "the same as in the source paper (0.05 s, one pass, caps 0.8 and 0.76): to reproduce it",
+      none, DichotomyWith([](DichotomyOptions* d) {
         *d = {.tolerance = 0.05, .up_down_cap = 0.8, .down_up_cap = 0.76};
       }));
-  add("dichotomy/right_to_left", "dichotomy from the last junction to the first", dichotomy,
+  add("dichotomy/right_to_left",
+      "dichotomy from the last junction to the first: to see how much the order matters", dichotomy,
       DichotomyWith([](DichotomyOptions* d) { d->order = DichotomyOptions::Order::kRightToLeft; }));
-  add("dichotomy/three_passes", "dichotomy three times over, onwards each time", dichotomy,
+  add("dichotomy/three_passes",
+      "dichotomy three times over: a little shorter, for three times the work", dichotomy,
       DichotomyWith([](DichotomyOptions* d) { d->passes = 3; }));
-  add("dichotomy/uniform", "dichotomy at the best uniform T and height of a grid", optimizer,
-      Uniform, RequestSolver);
-  add("reference/lipm", "a lower bound on every walk of a LIPM on the footsteps; finds no walk",
+  add("dichotomy/uniform",
+      "dichotomy at the best T and height that all half-steps share: how far two numbers lead",
+      optimizer, Uniform, RequestSolver);
+  add("reference/lipm",
+      "no walk, but a lower bound on all of a LIPM on the footsteps: how much is left to gain",
       none, [](const WalkProblem& problem, const MethodOptions&, SmoothingMonitor& monitor) {
         return TellLipmBound(problem, monitor);
       });
@@ -170,10 +193,11 @@ Methods Methods::Standard() {
     all.push_back(SolverMethod(solver));
   }
   add("halfstep/horizon",
-      "the program of halfstep/sqp in short windows along the walk, for walks of any length",
+      "halfstep/sqp in windows along the walk: for more than about 60 half-steps",
       {HorizonGroup(), OptimizerGroup()}, ByWindows, RequestHorizon);
   add(
-      "given", "no search: the walk of smoothing.given, checked and certified like any other", none,
+      "given", "no search: the walk of smoothing.given is judged: for overlaps from elsewhere",
+      none,
       [](const WalkProblem& problem, const MethodOptions& options, SmoothingMonitor& monitor) {
         return TakeGivenWalk(problem, options.Get(GivenWalkGroup()), monitor);
       },

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "smoothing/walk/walk_rounding.h"
+
 namespace halfstep {
 namespace {
 
@@ -79,8 +81,9 @@ std::optional<Margin> IntervalStatements::Prove(const SuperposedWalk& walk, doub
 
 void BoundMotion(const MotionBounds& bounds, const SuperposedWalk& walk, double begin, double end,
                  IntervalMotion* motion) {
-  bounds.Bound(walk.At(0.5 * (begin + end)), walk.SecondBounds(begin, end), 0.5 * (end - begin),
-               motion);
+  const LocalTime mid = walk.Locate(0.5 * (begin + end));
+  const WalkJet rounding = RoundingAt(walk, mid);
+  bounds.Bound(walk.At(mid), walk.SecondBounds(begin, end), 0.5 * (end - begin), motion, &rounding);
 }
 
 }  // namespace halfstep

@@ -16,7 +16,7 @@ using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-const JointNames kNames{.turning = {"shoulder", "elbow", "wrist"}, .others = {"gripper"}};
+const JointNames kNames{.moving = {"shoulder", "elbow", "wrist"}, .others = {"gripper"}};
 
 Trajectory Read(const std::string& name, const std::string& text,
                 const std::optional<Interpolation>& interpolation = {}) {
@@ -51,15 +51,32 @@ points:
   EXPECT_EQ(read.q(1, 1), 4.0);
 }
 
+// Roll, pitch and yaw are the same poses as quaternions, whose sign says nothing.
+TEST(Trajectory, MayTellTheRootsPoses) {
+  const Trajectory turns =
+      Read("a.csv",
+           "t,wrist,base_x_m,base_y_m,base_z_m,base_qw,base_qx,base_qy,base_qz\n"
+           "0,1,1,2,3,1,0,0,0\n1,1,1,2,3,-0.8,0,0,-0.6\n");
+  const Trajectory angles = Read("a.csv",
+                                 "t,wrist,root_x,root_y,root_z,root_roll,root_pitch,root_yaw_rad\n"
+                                 "0,1,1,2,3,0,0,0\n1,1,1,2,3,0,0,1.2870022175865687\n");
+  EXPECT_LT((turns.base - angles.base).norm(), 1e-12);
+  EXPECT_NEAR(turns.base(3, 1), 0.8, 1e-15);
+  EXPECT_TRUE(turns.unread.empty());
+  EXPECT_THAT(Refused("a.csv", "t,wrist,base_x,base_y,base_z\n0,1,0,0,0\n1,1,0,0,0\n"),
+              HasSubstr("base_qw: is missing"));
+  EXPECT_THAT(Refused("a.npz", ""), HasSubstr("hs.check"));
+}
+
 TEST(Trajectory, MistakesAreTold) {
   EXPECT_THAT(Refused("a.txt", ""), HasSubstr("is no trajectory (valid: .csv"));
   EXPECT_THAT(Refused("a.csv", "x,wrist\n0,1\n1,1\n"), HasSubstr("the first column is no time"));
   EXPECT_THAT(Refused("a.csv", "t,wrist\n0,1\n"), HasSubstr("fewer than two knots"));
   EXPECT_THAT(Refused("a.csv", "t,wrist\n0,1\n0,1\n"), HasSubstr("knot 2: time 0 s"));
   EXPECT_THAT(Refused("a.csv", "t,wirst\n0,1\n1,1\n"),
-              HasSubstr("names no revolute joint of the robot (valid: shoulder, elbow, wrist)"));
+              HasSubstr("names no joint of the robot (valid: shoulder, elbow, wrist)"));
   EXPECT_THAT(Refused("a.csv", "t,wrist,gripper\n0,1,0\n1,1,0\n"),
-              HasSubstr("gripper: is not revolute"));
+              HasSubstr("gripper: is no joint that turns or slides"));
   EXPECT_THAT(Refused("a.csv", "t,wrist,elbow,elbow_vel\n0,1,0,0\n1,1,0,0\n"),
               HasSubstr("wrist: has no velocity, as other joints have"));
   EXPECT_THAT(Refused("a.csv", "t,wrist\n0,1\n1,1\n", Interpolation::kCubic),
@@ -89,6 +106,29 @@ TEST(CheckCommand, SaysWhatIsProvedAndWhatIsNot) {
               AllOf(HasSubstr("clearance            not proved: 1 of 3"),
                     HasSubstr("hand - ball at 1.0000 s"), HasSubstr("no knot shows it")));
   EXPECT_EQ(Halfstep(place.path(), {"check", "arm.csv", "--robot", "armm"}).status, kBadInput);
+}
+
+TEST(CheckCommand, AsksForTheFloorAndForContacts) {
+  const TemporaryFolder place;
+  WriteText(place / "arm.urdf", ArmText());
+  WriteText(place / "arm.csv",
+            "t,wrist,base_x,base_y,base_z,base_qw,base_qx,base_qy,base_qz\n"
+            "0,0,0,0,0.5,1,0,0,0\n1,0,0,0,0.5,1,0,0,0\n2,0,0,0,0,1,0,0,0\n");
+  const auto check = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"check", "arm.csv", "--robot", "arm.urdf"};
+    words.insert(words.end(), more.begin(), more.end());
+    return Halfstep(place.path(), words);
+  };
+  const Outcome stands = check({"--ground", "0.06", "--contact", "hand:0..1"});
+  EXPECT_EQ(stands.status, kSuccess) << stands.out << stands.err;
+  EXPECT_THAT(stands.out, AllOf(HasSubstr("1 joints and the root, 3 knots"),
+                                HasSubstr("contact, distance    proved for all t: 1")));
+  const Outcome sinks = check({"--ground", "0.01", "--contact", "hand"});
+  EXPECT_EQ(sinks.status, kFailed);
+  EXPECT_THAT(sinks.out,
+              AllOf(HasSubstr("base at 1.9375 s: -18.75 mm, -10 demanded; proved is 50 mm"),
+                    HasSubstr("hand from 0 to 2 s"), HasSubstr("proved is 500 mm")));
+  EXPECT_THAT(check({"--contact", "hand:0-1"}).err, HasSubstr("(valid: LINK or LINK:FROM..TO"));
 }
 
 // A robot file says where meshes are.

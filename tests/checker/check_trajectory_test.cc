@@ -7,6 +7,7 @@
 #include <random>
 
 #include "experiments/checker/separation.h"
+#include "tests/checker/found_in_check.h"
 #include "tests/checker/three_joint_arm.h"
 #include "tests/refusal_of.h"
 #include "wpg/geometry/rotation.h"
@@ -25,13 +26,6 @@ Scene WithBall(const Eigen::Vector3d& at, double radius) {
   return scene;
 }
 
-const TrajectoryFinding& Of(const TrajectoryCheck& check, Kind kind, const std::string& subject) {
-  for (const TrajectoryFinding& finding : check.findings) {
-    if (finding.kind == kind && finding.subject == subject) return finding;
-  }
-  throw std::logic_error("nothing was found about " + subject);
-}
-
 TEST(JointedRobot, FramesHoldThoseOfTheUrdf) {
   const JointedRobot arm = Arm();
   std::mt19937_64 random(1);
@@ -40,7 +34,7 @@ TEST(JointedRobot, FramesHoldThoseOfTheUrdf) {
     std::vector<double> q = {angle(random), angle(random), angle(random)};
     std::vector<Interval> around;
     for (const double x : q) around.push_back(i % 2 ? Interval(x) : Interval(x - 1e-3, x + 1e-3));
-    const std::vector<Frame> frames = arm.Frames(around);
+    const std::vector<Frame> frames = arm.Frames(Frame(), around);
     const std::vector<Eigen::Isometry3d> poses = arm.urdf().LinkPoses(q);
     for (size_t link = 0; link < poses.size(); ++link) {
       for (size_t k = 0; k < 3; ++k) {
@@ -57,7 +51,7 @@ TEST(JointedRobot, FramesHoldThoseOfTheUrdf) {
 TEST(JointedRobot, LeversBoundHowFarBodiesMove) {
   const JointedRobot arm = Arm();
   const JointedRobot::Body& hand = arm.bodies().back();
-  const std::vector<JointedRobot::Lever> levers = arm.Levers(hand, 0);
+  const std::vector<JointedRobot::Lever> levers = arm.Levers(hand, 0, {0, 0, 0});
   ASSERT_EQ(levers.size(), 3U);
   EXPECT_NEAR(levers[0].reach, 0.14, 1e-9);  // from the wrist: 0.1 and the ball
   EXPECT_NEAR(levers[2].reach, 0.14 + 0.3 + 0.4, 1e-9);
@@ -82,7 +76,7 @@ TEST(JointedRobot, LeversBoundHowFarBodiesMove) {
     tightest = std::min(tightest, 1.0 - moved / most);
   }
   EXPECT_LT(tightest, 0.1);
-  EXPECT_TRUE(arm.Levers(arm.bodies().front(), 0).empty());
+  EXPECT_TRUE(arm.Levers(arm.bodies().front(), 0, {0, 0, 0}).empty());
 }
 
 TEST(Separation, GapsAreBelowTheDistanceAndNearIt) {
@@ -117,7 +111,7 @@ TEST(CheckTrajectory, ATouchBetweenKnotsIsFound) {
   const Scene in_the_way = WithBall({0.9, 0, 0}, 0.05), beside = WithBall({0.9, 0, 0.4}, 0.05);
   const TrajectoryCheck touched = CheckTrajectory(swing, Arm(), in_the_way, {});
   EXPECT_FALSE(touched.proved());
-  const TrajectoryFinding& hand = Of(touched, Kind::kClearance, "hand - ball");
+  const TrajectoryFinding& hand = FoundIn(touched, Kind::kClearance, "hand - ball");
   EXPECT_FALSE(hand.proved);
   EXPECT_LT(hand.least, 0.0);
   EXPECT_GT(hand.at_knots.value(), 0.3);
@@ -130,7 +124,7 @@ TEST(CheckTrajectory, ProvesWhatIsKeptAndNoMore) {
   const Scene above = WithBall({0.9, 0, 0.2}, 0.05);  // the hand's centre passes at 0.2 m
   for (const auto& [asked, proved] : {std::pair{0.109999, true}, {0.110001, false}}) {
     const TrajectoryCheck check = CheckTrajectory(swing, Arm(), above, {.clearance = asked});
-    EXPECT_EQ(Of(check, Kind::kClearance, "hand - ball").proved, proved) << asked;
+    EXPECT_EQ(FoundIn(check, Kind::kClearance, "hand - ball").proved, proved) << asked;
     EXPECT_LT(check.intervals, 4000);
   }
 }
@@ -143,22 +137,22 @@ TEST(CheckTrajectory, ACurveMayLeaveLimitsThatItsKnotsKeep) {
   over.v(0, 0) = 1.0;  // up, and back
   over.v(0, 1) = -1.0;
   const TrajectoryCheck check = CheckTrajectory(over, Arm(), {}, {});
-  const TrajectoryFinding& shoulder = Of(check, Kind::kLimits, "shoulder");
+  const TrajectoryFinding& shoulder = FoundIn(check, Kind::kLimits, "shoulder");
   EXPECT_FALSE(shoulder.proved);
   EXPECT_NEAR(shoulder.at, 0.5, 1e-3);
   EXPECT_NEAR(shoulder.least, 2.5 - 2.65, 1e-3);
   EXPECT_NEAR(shoulder.at_knots.value(), 0.1, 1e-9);
-  EXPECT_TRUE(Of(check, Kind::kSpeed, "shoulder").proved);
+  EXPECT_TRUE(FoundIn(check, Kind::kSpeed, "shoulder").proved);
 }
 
 TEST(CheckTrajectory, LinearPiecesHaveSpeedsAndNoAccelerations) {
   const Trajectory fast = ArmTrajectory({{0, 0, 0, 0}, {0.1, 0.31, 0.29, 0}, {1, 0.31, 0.29, 0}});
   const TrajectoryCheck check = CheckTrajectory(fast, Arm(), {}, {.acceleration = 100.0});
-  EXPECT_FALSE(Of(check, Kind::kSpeed, "shoulder").proved);
-  EXPECT_TRUE(Of(check, Kind::kSpeed, "elbow").proved);
-  EXPECT_FALSE(Of(check, Kind::kAcceleration, "elbow").proved);
-  EXPECT_EQ(Of(check, Kind::kAcceleration, "elbow").at, 0.1);
-  EXPECT_TRUE(Of(check, Kind::kAcceleration, "wrist").proved);
+  EXPECT_FALSE(FoundIn(check, Kind::kSpeed, "shoulder").proved);
+  EXPECT_TRUE(FoundIn(check, Kind::kSpeed, "elbow").proved);
+  EXPECT_FALSE(FoundIn(check, Kind::kAcceleration, "elbow").proved);
+  EXPECT_EQ(FoundIn(check, Kind::kAcceleration, "elbow").at, 0.1);
+  EXPECT_TRUE(FoundIn(check, Kind::kAcceleration, "wrist").proved);
 }
 
 // The elbow ends at its limit to the bit, and the hand 22 mm from the upper arm.
@@ -166,8 +160,8 @@ TEST(CheckTrajectory, TheHandMayComeNearTheUpperArm) {
   const Trajectory fold = ArmTrajectory({{0, 0, 0, 0}, {1, 0, 2.5, 2.4}});
   EXPECT_TRUE(CheckTrajectory(fold, Arm(), {}, {.self_clearance = 0.021}).proved());
   const TrajectoryCheck check = CheckTrajectory(fold, Arm(), {}, {.self_clearance = 0.03});
-  EXPECT_FALSE(Of(check, Kind::kSelfClearance, "upper - hand").proved);
-  EXPECT_NEAR(Of(check, Kind::kSelfClearance, "upper - hand").at, 1.0, 0.05);
+  EXPECT_FALSE(FoundIn(check, Kind::kSelfClearance, "upper - hand").proved);
+  EXPECT_NEAR(FoundIn(check, Kind::kSelfClearance, "upper - hand").at, 1.0, 0.05);
   const TrajectoryCheck without =
       CheckTrajectory(fold, Arm(), {}, {.self_clearance = 0.03, .ignored = {{"hand", "upper"}}});
   EXPECT_TRUE(without.proved());
@@ -192,7 +186,7 @@ TEST(CheckTrajectory, WhatIsProvedIsKeptAtEveryInstant) {
     const Curves curves(drawn);
     for (const JointedRobot::Body& body : arm.bodies()) {
       if (body.name == "base") continue;
-      const bool is_proved = Of(check, Kind::kClearance, body.name + " - ball").proved;
+      const bool is_proved = FoundIn(check, Kind::kClearance, body.name + " - ball").proved;
       double least = 1.0;
       for (int n = 0; n <= 400; ++n) {
         const double t = 0.005 * n;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <random>
 
+#include "experiments/checker/proof_file.h"
 #include "experiments/checker/walk_run.h"
 #include "experiments/checker/walk_statements.h"
 #include "experiments/run/exit_status.h"
@@ -471,6 +472,32 @@ TEST(CheckWalk, WhatItDoesNotKnowIsRefused) {
   EXPECT_THAT(refused(walk), HasSubstr("half-step 1: the other one of its step is elsewhere"));
 }
 
+TEST(ProofFile, IsReadBackToTheBit) {
+  for (const MadeRun* run : {&Box(), &Wren()}) {
+    ProofFile proof;
+    proof.walk = run->walk;
+    proof.run = "made";
+    proof.method = "dichotomy";
+    const auto check = [](ProofFile* of) {
+      const WalkRun& walk = of->walk;
+      return CheckWalk(walk.tables, walk.robot, walk.scene, walk.certificate, walk.crouch, {},
+                       &of->hints);
+    };
+    const TrajectoryCheck first = check(&proof);
+    const std::string text = ProofText(proof, {"a sentence"});
+    ProofFile again = ReadProof("walk.json", text);
+    EXPECT_EQ(ProofText(again, again.walk.not_covered), text);
+    const TrajectoryCheck second = check(&again);
+    EXPECT_TRUE(second.proved());
+    EXPECT_EQ(second.findings.size(), first.findings.size());
+
+    again.hints.directions.clear();
+    const TrajectoryCheck without = check(&again);
+    EXPECT_FALSE(without.proved());
+    for (const TrajectoryFinding* finding : Missed(without)) EXPECT_TRUE(finding->hint_missing);
+  }
+}
+
 TEST(CheckCommand, ChecksRuns) {
   const MadeRun& run = Box();
   const Outcome proved = Halfstep(run.place.path(), {"check", "made", "--method", "dichotomy"});
@@ -478,6 +505,11 @@ TEST(CheckCommand, ChecksRuns) {
   EXPECT_THAT(proved.out, HasSubstr("2 half-steps of hrp2 in box"));
   EXPECT_THAT(proved.out, HasSubstr("clearance            proved for all t: 23, each by 5"));
   EXPECT_THAT(proved.out, HasSubstr("torque: nothing is demanded"));
+
+  EXPECT_THAT(Halfstep(run.place.path(), {"check", "made", "--proof", "a.json"}).err,
+              HasSubstr("--proof: is of one walk (valid with --method: raw, dichotomy)"));
+  EXPECT_THAT(Halfstep(run.place.path(), {"check", "made/manifest.json"}).err,
+              HasSubstr("made/manifest.json: format: is missing"));
 
   const TemporaryFolder forged;
   std::filesystem::copy(run.place / "made", forged / "run",

@@ -47,7 +47,7 @@ INSTANTIATE_TEST_SUITE_P(
         {"NoConfig", {"run"}, "CONFIG is required"},
         {"UnknownOption", {"run", kGood, "--outt", "a"}, "--outt"},
         {"TwoConfigs", {"run", kGood, kGood}, "fig3"},
-        {"MissingFile", {"run", "nowhere.yaml"}, "nowhere.yaml: cannot be opened"},
+        {"MissingFile", {"run", "nowhere.yaml"}, "nowhere.yaml: no such file (valid: a path, or a name of bar_10cm"},
         {"FolderAsFile", {"run", "."}, "a folder"},
         {"UnknownKey", {"run", Fixture("config/unknown_key.yaml")}, ":5:1: colour: unknown key"},
         {"BadScene",

@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "experiments/commands/commands.h"
 #include "experiments/report/drawn_mesh.h"
+#include "experiments/report/drawn_rods.h"
 #include "experiments/report/report_page.h"
 #include "experiments/report/report_walk.h"
 #include "tests/experiments/child_process.h"
@@ -74,6 +76,37 @@ TEST(DrawnMesh, CoarsenedHasAtMostSoManyTrianglesAndStaysWhereItIs) {
   EXPECT_LT(coarse.triangles.maxCoeff(), coarse.vertices.cols());
   EXPECT_GE(Volume(coarse), 0.5 * Volume(mesh));
   EXPECT_EQ(Coarsened(mesh, 10000).triangles, mesh.triangles);
+}
+
+// Whether the ends of a rod are within so much of two points of the waist's frame.
+bool Joins(const DrawnRod& rod, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  return (rod.from_B - from).norm() < 1e-9 && (rod.to_B - to).norm() < 1e-9;
+}
+
+TEST(DrawnRods, JoinWhatHangsOnLinksWithoutAShape) {
+  RobotModel robot = LoadRobot(HALFSTEP_SOURCE_DIR "/wpg/robots/hrp2.yaml");
+  const std::vector<DrawnRod> rods = DrawnRods(robot);
+  // From the chest's joint to the neck's, which has no shape.
+  const Eigen::Vector3d chest(0.032, 0, 0.3507), neck(0.025, 0, 0.648);
+  EXPECT_EQ(std::ranges::count_if(rods, [&](const DrawnRod& r) { return Joins(r, chest, neck); }),
+            1);
+  // The forearms are as long as in the URDF, thinner than what hangs on them, and each other's
+  // mirror images.
+  std::vector<DrawnRod> forearms;
+  std::ranges::copy_if(rods, std::back_inserter(forearms), [](const DrawnRod& rod) {
+    return rod.from_B.z() < 0.3 && std::abs(rod.from_B.y()) > 0.2 && rod.to_B.z() > 0;
+  });
+  ASSERT_EQ(forearms.size(), 2u);
+  for (const DrawnRod& rod : forearms) {
+    EXPECT_NEAR((rod.to_B - rod.from_B).norm(), 0.25, 1e-9);
+    EXPECT_EQ(rod.leg, -1);
+    EXPECT_GT(rod.radius, 0.01);
+    EXPECT_LT(rod.radius, 0.04);
+  }
+  EXPECT_NEAR(forearms[0].to_B.y(), -forearms[1].to_B.y(), 1e-9);
+  // Where the robot's file is gone none is drawn, and nothing is thrown.
+  robot.files[0].path = "/none/hrp2.yaml";
+  EXPECT_TRUE(DrawnRods(robot).empty());
 }
 
 // The data of a page.
@@ -171,6 +204,11 @@ TEST_F(ReportTest, HoldsTheWalksOfTheRun) {
     between[k] = nearest["points"][0][k].get<double>() - nearest["points"][1][k].get<double>();
   }
   EXPECT_NEAR(between.norm(), least, 1e-5);
+  // What is proved of a family is no more than what any row has.
+  const json& proved = walk["certificate"]["proved"];
+  EXPECT_LE(proved["clearance"]["least"].get<double>(), least);
+  EXPECT_GE(proved["clearance"]["least"].get<double>(),
+            walk["certificate"]["demanded"]["clearance"].get<double>());
   // Columns add up to the trajectory's rows, every fourth and the last.
   for (const std::string column : {"t_s", "com_x_m", "right_foot_z_m", "q_RLEG_JOINT3_rad"}) {
     const json& shown = walk["columns"][column];

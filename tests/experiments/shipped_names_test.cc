@@ -55,5 +55,20 @@ TEST(ShippedNames, UnknownOnesHaveASuggestion) {
   EXPECT_EQ(NamesIn(place.path()).size(), 0U);  // nothing was written
 }
 
+TEST(ShippedNames, ThoseOfAnotherCommandAreToldWithIt) {
+  const TemporaryFolder place;
+  EXPECT_THAT(Halfstep(place.path(), {"run", "live_bar"}).err,
+              HasSubstr("live_bar: no such file (it is an episode: `halfstep live live_bar`; "));
+  EXPECT_THAT(Halfstep(place.path(), {"live", "bar_8cm"}).err,
+              HasSubstr("(it is a config: `halfstep run bar_8cm`; "));
+}
+
+TEST(ShippedNames, AFileThatIsMissingHasANearOne) {
+  const TemporaryFolder place;
+  WriteText(place / "my_walk.yaml", "");
+  EXPECT_THAT(Halfstep(place.path(), {"run", "my_wlak.yaml"}).err,
+              HasSubstr("my_wlak.yaml: no such file (did you mean 'my_walk.yaml'? valid: a path"));
+}
+
 }  // namespace
 }  // namespace halfstep

@@ -35,7 +35,7 @@ int FirstOf(int foot) { return 5 + 4 * foot; }
 
 }  // namespace
 
-ClosedFormWalk::ClosedFormWalk(const WalkPlan& plan) {
+ClosedFormWalk::ClosedFormWalk(const WalkPlan& plan, bool with_stretches) {
   const Real omega = Sqrt(Real(kGravity) / Real(plan.com_height));
   std::array<FloorPose, 2> feet = plan.start;
   // With both feet on the ground: the waist is over the lower one.
@@ -89,7 +89,7 @@ ClosedFormWalk::ClosedFormWalk(const WalkPlan& plan) {
     half_steps_.push_back(half_step);
     if (i < plan.overlaps.size()) begin += T - Real(plan.overlaps[i]);
   }
-  CutIntoStretches();
+  if (with_stretches) CutIntoStretches();
 }
 
 void ClosedFormWalk::Fractionize(const HalfStep& h, Real tau, Jet* jet) const {
@@ -127,7 +127,7 @@ Real ClosedFormWalk::Of(const Fractions& fractions, int quantity) {
   return (quantity - 5) % 4 == 2 ? fractions.height : fractions.foot;
 }
 
-WalkState ClosedFormWalk::At(Real t) const {
+std::array<ClosedFormWalk::Quantities, 3> ClosedFormWalk::Exactly(Real t) const {
   std::array<Quantities, 3> walk{half_steps_.front().from};
   for (const HalfStep& h : half_steps_) {
     if (t <= h.begin) break;
@@ -144,6 +144,11 @@ WalkState ClosedFormWalk::At(Real t) const {
       }
     }
   }
+  return walk;
+}
+
+WalkState ClosedFormWalk::At(Real t) const {
+  const std::array<Quantities, 3> walk = Exactly(t);
   const auto pack = [](const Quantities& x) {
     const auto d = [&x](size_t q) { return static_cast<double>(x[q]); };
     return WalkState::Values{

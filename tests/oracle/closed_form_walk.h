@@ -104,22 +104,28 @@ struct Stretch {
 /// The superposed walk of smoothing/README.md, "The homotopy", from the readmes' formulas.
 class ClosedFormWalk {
  public:
-  explicit ClosedFormWalk(const WalkPlan& plan);
+  /// Cutting a walk of thousands of half-steps takes minutes.
+  explicit ClosedFormWalk(const WalkPlan& plan, bool with_stretches = true);
   double duration() const { return static_cast<double>(half_steps_.back().end); }  ///< [s]
   double start_of(int i) const {
     return static_cast<double>(half_steps_[static_cast<size_t>(i)].begin);
   }
   WalkState At(Real t) const;
+  /// CoM x, y, ZMP x, y, waist's yaw, x, y, z and yaw of the left and the right sole, waist's z.
+  using Quantities = std::array<Real, 14>;
+  /// Value, rate and second of all quantities at t_k + τ, not rounded; no second of the ZMP.
+  std::array<Quantities, 3> Exactly(int k, Real tau) const {
+    return Exactly(half_steps_[static_cast<size_t>(k)].begin + tau);
+  }
   /// At t_k + τ.
   WalkState At(int k, double tau) const {
     return At(half_steps_[static_cast<size_t>(k)].begin + static_cast<Real>(tau));
   }
-  /// They cover [0, D].
+  /// They cover [0, D]; none where they were not asked for.
   const std::vector<Stretch>& stretches() const { return stretches_; }
 
  private:
-  using Quantities =
-      std::array<Real, 14>;  // com xy, zmp xy, waist yaw, left xyz yaw, right xyz yaw, waist z
+  std::array<Quantities, 3> Exactly(Real t) const;
   struct HalfStep {
     bool up = true;
     int swing = 0;

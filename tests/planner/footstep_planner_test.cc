@@ -80,11 +80,24 @@ TEST(Termination, TheFirstReasonCounts) {
 }
 
 // Nodes that never come, because every half-step is blocked, cost queries.
-TEST(Termination, EffortCountsNodesAndQueries) {
+TEST(Termination, EffortCountsNodesQueriesAndSamples) {
   const Termination stop = AfterEffort(1.0);
   EXPECT_EQ(stop({.nodes = 60000, .queries = 90000}), StopReason::kGoOn);
   EXPECT_EQ(stop({.nodes = 60000, .queries = 100000}), StopReason::kBudget);
   EXPECT_EQ(stop({.queries = 1000000}), StopReason::kBudget);
+  EXPECT_EQ(stop({.samples = 66667}), StopReason::kBudget);
+}
+
+// Where the first plan was hard to find, better ones are.
+TEST(Termination, ImprovingTakesThreeTimesTheFirstPlan) {
+  const Termination stop = WhenPlannedAfter(1.0);
+  EXPECT_EQ(stop({.queries = 900000}), StopReason::kGoOn);
+  EXPECT_EQ(stop({.queries = 900000, .cost = 5.0}), StopReason::kGoOn);
+  EXPECT_EQ(stop({.queries = 2699999, .cost = 5.0}), StopReason::kGoOn);
+  EXPECT_EQ(stop({.queries = 2700000, .cost = 5.0}), StopReason::kEnough);
+  const Termination early = WhenPlannedAfter(1.0);
+  EXPECT_EQ(early({.queries = 100000, .cost = 5.0}), StopReason::kGoOn);
+  EXPECT_EQ(early({.queries = 1000000, .cost = 5.0}), StopReason::kEnough);
 }
 
 TEST(StepReach, NoSequenceOfElementsLeadsFarther) {

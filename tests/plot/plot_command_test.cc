@@ -181,8 +181,7 @@ TEST_F(PlotCommandTest, FilesHaveTheAskedSizeAndTheSameBytesEachTime) {
 TEST_F(PlotCommandTest, RefusesWhatItCannotDraw) {
   EXPECT_THAT(
       Refusal({"run", "--what", "walk,torques", "a.pdf"}),
-      HasSubstr("--what: 'torques' is unknown (valid: walk, foot, side, zmp, margins, joints, "
-                "pareto)"));
+      HasSubstr("--what: 'torques' is unknown (valid: walk, foot, side, zmp, margins, joints)"));
   EXPECT_THAT(Refusal({"run", "--what", "zpm", "a.pdf"}), HasSubstr("did you mean 'zmp'?"));
   EXPECT_THAT(Refusal({"run", "--method", "ipopt", "a.pdf"}),
               HasSubstr("--method: 'ipopt' is not in "));
@@ -196,7 +195,6 @@ TEST_F(PlotCommandTest, RefusesWhatItCannotDraw) {
               HasSubstr("--width: leaves no room"));
   EXPECT_THAT(Refusal({"run/footsteps.csv", "a.pdf"}), HasSubstr("is no table of"));
   EXPECT_THAT(Refusal({"nowhere", "a.pdf"}), HasSubstr("nowhere: no such run folder"));
-  EXPECT_THAT(Refusal({"run", "--what", "pareto", "a.pdf"}), HasSubstr("has no pareto.csv"));
 }
 
 TEST_F(PlotCommandTest, ReplacesOnlyWhatItIsToldTo) {

@@ -103,7 +103,7 @@ const labels = (browser) =>
 // The number of a walk after walk `before` that took over with other footsteps, when the log has one.
 async function walkWithOtherFootsteps(browser, before) {
   const lines = await browser.run("return [...document.querySelectorAll('#log li')].map((line) => line.title)");
-  const numbers = lines.map((line) => /walk (\d+) taken over.*: changed/.exec(line)?.[1]).filter(Boolean);
+  const numbers = lines.map((line) => /walk (\d+) taken over.*: another way/.exec(line)?.[1]).filter(Boolean);
   return numbers.map(Number).find((number) => number > before);
 }
 
@@ -220,6 +220,15 @@ async function testLive(browser, episode) {
   await browser.set("show-volumes", false);
   await until(async () => !(await browser.run(
     "return document.getElementById('volumes-note').checkVisibility()")), "the volumes to be hidden");
+  // What was is seen again, and then what is.
+  await click(browser, "restart");
+  await stateIs(browser, /, as it was$/);
+  await click(browser, "now");
+  await until(async () => !/as it was/.test(await textOf(browser, "state")), "what is");
+  const handedOver = await browser.run(`
+    return [...document.querySelectorAll("#hand-overs tr")].slice(1).map((row) => row.textContent)`);
+  assert.ok(handedOver.length > 0 && handedOver.length <= 10, `hand-overs: ${handedOver}`);
+  assert.match(handedOver[0], /s\d+from half-step \d+(another|a faster|a shorter|the way|it walks).* ms$/);
   await stateIs(browser, /half-step (\d+) of \1, at rest/);
   await click(browser, "stop");
   await stateIs(browser, /^(arrived|stuck|too long|no plan|interrupted)/);
@@ -273,6 +282,9 @@ async function testRecording(browser) {
   await pause(200);
   assert.equal(await clock(), paused, "space pauses");
 
+  await click(browser, "restart");
+  await until(async () => (await clock()) < paused, "it to begin again");
+  await browser.key(" ");
   await browser.set("scrub", "6");
   assert.equal(await clock(), 6);
   await stateIs(browser, /^6\.00 s, half-step \d+ of \d+/);

@@ -53,6 +53,15 @@ async function testPlots(browser) {
   await press(true);
   assert.equal((await shown())[0], "true,true", "all again");
 
+  const joint = await browser.run(`const pick = document.querySelector(".pick");
+    pick.selectedIndex = pick.selectedIndex === 0 ? 1 : 0;
+    pick.dispatchEvent(new Event("change"));
+    return { name: pick.value, names: pick.options.length, note: document.querySelector(".note[title]").textContent };`);
+  assert.equal(joint.names, 12, "one joint of twelve is picked");
+  assert.match(joint.note, /rad\/s at .* rad/);
+  await browser.set("pace", "each"); // all is drawn anew
+  assert.equal(await browser.run("return document.querySelector('.pick').value"), joint.name, "and stays so");
+
   const ends = () => browser.run("return document.getElementById('clock').textContent.split('/')[1]");
   const longer = Number.parseFloat(await ends());
   await browser.set("pace", "squeezed");
@@ -81,8 +90,11 @@ export async function testSaving(browser) {
   for (const [type, size] of list.filter(Array.isArray)) assert.ok(size > 1500, `${type}: ${size}`);
   assert.ok(list.includes("CoM_and_ZMP_x.svg"), JSON.stringify(list));
   const svg = await browser.run(`return window.saved.find((s) => s.type === "image/svg+xml").text()`);
-  assert.ok(await browser.run(`const read = new DOMParser().parseFromString(arguments[0], "image/svg+xml");
-    return read.querySelectorAll("path").length > 8 && !read.querySelector("parsererror")`, svg));
+  const figure = await browser.run(`const read = new DOMParser().parseFromString(arguments[0], "image/svg+xml");
+    return { width: read.documentElement.getAttribute("width"), broken: Boolean(read.querySelector("parsererror")),
+      paths: read.querySelectorAll("path").length, words: [...read.querySelectorAll("text")].map((text) => text.textContent) };`, svg);
+  assert.ok(figure.width === "252pt" && figure.paths > 8 && !figure.broken, JSON.stringify(figure));
+  assert.ok(["CoM", "ZMP", "time [s]"].every((word) => figure.words.includes(word)), "lines are named");
 }
 
 export async function testPhoneInTheDark(browser, url) {

@@ -85,6 +85,12 @@ async function testRun(browser) {
       line.getAttribute("points").split(" ").length),
     verdicts: document.querySelectorAll("#guarantee .yes").length,
     left: document.querySelector("#guarantee .not-covered").textContent,
+    pair: document.getElementById("pair").textContent,
+    opened: Number.parseFloat(document.getElementById("clock").textContent),
+    insets: [...document.querySelectorAll(".zmp-map polygon[stroke-dasharray]")].map((inset) =>
+      inset.getAttribute("points").split(" ").length),
+    names: [...document.querySelectorAll(".zmp-map text")].map((text) => text.textContent),
+    least: [...document.querySelectorAll("#least tbody tr")].map((row) => [...row.cells].map((cell) => cell.textContent)),
     policy: document.querySelector("meta[http-equiv]").content };`);
   assert.equal(texts.title, hostile);
   assert.ok(texts.held.includes(hostile), texts.held);
@@ -96,6 +102,20 @@ async function testRun(browser) {
   assert.equal(texts.verdicts, 3);
   assert.match(texts.left, /^Not covered: \d+ things.*torque: nothing is demanded: the URDF has no effort.*Not watched: /s);
   assert.match(texts.policy, /^default-src 'none'; script-src 'sha256-/);
+
+  const nearest = texts.least.find(([, margin]) => margin === "clearance");
+  assert.ok(Math.abs(texts.opened - Number.parseFloat(nearest[0])) < 0.011, "opens where an obstacle is nearest");
+  assert.match(texts.pair, /^A is nearest: .* – .* cm at/);
+  assert.ok(texts.insets.every((corners) => corners >= 4), `what is demanded of both ZMPs: ${texts.insets}`);
+  for (const name of ["x [m]", "y [m]", "left, at the start", "right, at the start", "1 right"]) {
+    assert.ok(texts.names.includes(name), `${name}: ${texts.names}`);
+  }
+  for (const [, margin, sampled, proved] of texts.least) {
+    assert.match(proved, /^≥ -?[\d.e-]+/, `${margin}: sampled ${sampled}`);
+    assert.ok(sampled === "–" || Number.parseFloat(proved.slice(2)) <= Number.parseFloat(sampled), `${margin}: ${sampled}, ${proved}`);
+  }
+  await testDressed(browser);
+  await browser.key("\uE011"); // Home
 
   const standing = await view(browser, isDrawn);
   assert.ok(isDrawn(standing), `the view is drawn: ${countColours(standing)} colours`);
@@ -131,6 +151,17 @@ async function testRun(browser) {
   assert.deepEqual(await faultsOf(browser, packages, once) ?? [], [], "serious and critical faults");
   await testSaving(browser);
   assert.deepEqual(await browser.console(), [], "the console is empty");
+}
+
+// What looks like a robot is drawn, and the bodies that proofs use in its place.
+async function testDressed(browser) {
+  await browser.set("camera", "feet");
+  const dressed = await view(browser, isDrawn);
+  await browser.set("show-bodies", true);
+  const differs = (picture) => partThatDiffers(dressed, picture) > 0.003;
+  assert.ok(differs(await view(browser, differs)), "feet are drawn otherwise than their bodies");
+  await browser.set("show-bodies", false);
+  await browser.set("camera", "corner");
 }
 
 async function testComparison(browser) {

@@ -177,7 +177,7 @@ TEST(CertifiedFeasibility, CertificateCoversTheWholeWalk) {
     std::set<double> ends = {0.0, walk.duration()};
     for (const CertificateRow& row : certificate) {
       ASSERT_LT(row.begin, row.end);
-      ASSERT_GE(row.bound, 1e-12);  // room for rounding even where nothing moves
+      ASSERT_TRUE(row.bound > 0.0 || std::isinf(row.margin.value));  // room for rounding
       ASSERT_GE(row.margin.value - row.bound, limits.demanded_of(row.family))
           << Name(row.family) << " in [" << row.begin << ", " << row.end << "]";
       ends.insert({row.begin, row.end});

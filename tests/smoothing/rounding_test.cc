@@ -7,17 +7,6 @@
 namespace halfstep {
 namespace {
 
-TEST(Rounding, OfPlacesGoesByTheWayFromTheOrigin) {
-  const Rounding rounding(Hrp2());
-  WalkState x = WalkState::Zero();
-  EXPECT_EQ(rounding.Of(x), 1e-12);
-  x[kComX] = -9.0;
-  EXPECT_EQ(rounding.Of(x), 1e-12);
-  // A coordinate of 5 km has less than a picometre left.
-  x[kComX] = -5000.0;
-  EXPECT_NEAR(rounding.Of(x), 5e-10, 1e-15);
-}
-
 // 1e-6 N m is nothing for a man, and more than a dwarf's ankle gives.
 TEST(Rounding, OfTorquesGoesByWeightAndLeg) {
   RobotModel robot = Hrp2();

@@ -157,7 +157,7 @@ def controls_of_tables(schema):
                (runs, "`overlap_s`, ", ""), (runs, "`left_foot_x_m` …", "`left_foot_y_m` …"),
                (runs, "`lambda` |", "`lambda, lambda` |"),
                (episodes, "`valid_until_s`", "`until_s`"),
-               (configs, "| `seed` | integer |", "| `seed` | number |"),
+               (configs, "| `seed` | integer, ", "| `seed` | number, "),
                (robots, "` .sole_xyz`", "` .sole_xy`"), (robots, "| `hull_vertices` |", "| `hull` |")]
     told = []
     for page, old, new in changes:

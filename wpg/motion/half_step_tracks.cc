@@ -1,9 +1,11 @@
 #include "wpg/motion/half_step_tracks.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "wpg/nth.h"
+#include "wpg/rounded.h"
 
 namespace halfstep {
 namespace {
@@ -22,6 +24,27 @@ std::array<Track, HalfStepTracks::kNumTracks> TracksOf(Side swing) {
            {kWaistZ, kRiseProfile}}};
 }
 
+double Sum(const Foothold& X) { return std::abs(X.x) + std::abs(X.y); }
+
+// Of a state at rest in W, where the swing foot's foothold is exact in W, and X_SF was computed
+// from it: 10 roundings of each product of a coordinate and a sine or cosine, there and back.
+WalkState PlaceError(const HalfStep& half_step, const Foothold& X_WS) {
+  const Pose2 via = half_step.via();
+  const double local = std::max({Sum(half_step.X_SF), std::abs(via.x) + std::abs(via.y),
+                                 std::abs(half_step.shape.support_point)});
+  const double yaw = 2.0 * (std::abs(X_WS.yaw) + std::abs(half_step.X_SF.yaw));
+  const double height = 4.0 * (std::abs(X_WS.height) + std::abs(half_step.X_SF.height) +
+                               half_step.via_height + half_step.shape.crouch);
+  const double place = 20.0 * (Sum(X_WS) + local) + yaw * local;
+  WalkState error;
+  for (const QuantityTraits& row : kQuantities) {
+    error[row.quantity] = kRoundoff * (row.component == Component::kYaw ? yaw
+                                       : row.component == Component::kZ ? height
+                                                                        : place);
+  }
+  return error;
+}
+
 }  // namespace
 
 HalfStepTracks::HalfStepTracks(const HalfStep& half_step, const MotionModel& model,
@@ -31,7 +54,8 @@ HalfStepTracks::HalfStepTracks(const HalfStep& half_step, const MotionModel& mod
       foot_(FootWindow(half_step.kind, half_step.shape)),
       lift_(LiftWindow(half_step.kind, half_step.shape)),
       tracks_(TracksOf(half_step.swing())),
-      start_(Transformed(X_WS, half_step.Start())) {
+      start_(Transformed(X_WS, half_step.Start())),
+      place_error_(PlaceError(half_step, X_WS)) {
   const HalfStepKind kind = half_step.kind;
   const MotionModel::Proposal proposal = model.Propose(kind, shape_, duration_);
   profiles_ = {proposal.com,
@@ -59,6 +83,25 @@ void HalfStepTracks::AddMotion(double tau, WalkJet* jet) const {
     jet->value[track.quantity] += p.value * track.change;
     jet->first[track.quantity] += p.first * track.change;
     jet->second[track.quantity] += p.second * track.change;
+  }
+}
+
+void HalfStepTracks::AddRounding(double time, double places, WalkJet* error, WalkJet* size) const {
+  std::array<ProfileAccuracy, kNumProfiles> of;
+  for (size_t i = 0; i < num_profiles(); ++i) Nth(of, i) = profiles_[i]->Accuracy(time);
+  for (const Track& track : tracks_) {
+    if (track.profile == kRiseProfile && !rises_) continue;
+    const auto& [e, most] = Nth(of, track.profile);
+    const int q = track.quantity;
+    // A mean of both ends, where the next half-step begins at one of them.
+    const double ends = 2.0 * places * place_error_[q], change = std::abs(track.change);
+    const auto add = [&](double own, double largest, double* to, double* sum) {
+      *to += own * change + largest * (ends + 3.0 * kRoundoff * change);
+      *sum += largest * change;
+    };
+    add(e.value, most.value, &error->value[q], &size->value[q]);
+    add(e.first, most.first, &error->first[q], &size->first[q]);
+    add(e.second, most.second, &error->second[q], &size->second[q]);
   }
 }
 

@@ -58,6 +58,13 @@ class HalfStepTracks {
   /// of the quantities for which QuantityTraits asks.
   void AddThirdRanges(double from, double to, WalkThirds* thirds) const;
 
+  /// Adds how far rounding may carry what AddMotion adds from the exact walk on these footholds,
+  /// local times off by at most `time` [s] besides, and the largest sizes of what it adds: both by
+  /// value, first and second. `places`: how often footholds were computed one from another.
+  void AddRounding(double time, double places, WalkJet* error, WalkJet* size) const;
+  /// The same of start().
+  WalkState StartRounding(double places) const { return places * place_error_; }
+
   /// The profile that a quantity follows when it moves.
   const Profile& of(Quantity quantity) const;
   /// The profiles at local time τ [s].
@@ -88,7 +95,8 @@ class HalfStepTracks {
   std::array<std::shared_ptr<const Profile>, kNumProfiles> profiles_;
   std::array<Track, kNumTracks> tracks_;
   WalkState start_;
-  bool rises_ = false;  // whether the waist's height changes; if not, kRiseProfile is not asked
+  WalkState place_error_;  // of a state at rest, seen from X_WS, for footholds that are exact
+  bool rises_ = false;     // whether the waist's height changes; if not, kRiseProfile is not asked
 };
 
 }  // namespace halfstep

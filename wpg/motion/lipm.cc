@@ -51,6 +51,9 @@ class LipmCom final : public LipmProfile {
     if (number != &HalfStepShape::bump_ramp) return {};
     return time().Slope(shift().ComByBumpRamp(sigma), 1.0);
   }
+  ProfileAccuracy Accuracy(double off) const override {
+    return time().Accuracy(shift().ComAccuracy(), off);
+  }
   double SecondBound(double, double) const override {
     return time().Second(shift().ComSecondBound());
   }
@@ -73,6 +76,9 @@ class LipmZmp final : public LipmProfile {
     if (number == &HalfStepShape::shift) return time().Slope(shift().ZmpByShift(sigma), 1.0);
     if (number != &HalfStepShape::bump_ramp) return {};
     return time().Slope(shift().ZmpByBumpRamp(sigma), 1.0);
+  }
+  ProfileAccuracy Accuracy(double off) const override {
+    return time().Accuracy(shift().ZmpAccuracy(), off);
   }
   double SecondBound(double from, double to) const override {
     return time().Second(shift().ZmpSecondBound(time().Of(from), time().Of(to)));

@@ -32,7 +32,9 @@ double InSpace(const WalkState& x, int quantity, int z) {
 }  // namespace
 
 MotionBounds::MotionBounds(const RobotModel& robot)
-    : robot_(robot), anchors_{LegAnchors(robot.legs[0]), LegAnchors(robot.legs[1])} {
+    : robot_(robot),
+      anchors_{LegAnchors(robot.legs[0]), LegAnchors(robot.legs[1])},
+      rounding_(robot) {
   for (const RobotBody& body : robot.bodies) {
     levers_.push_back(body.leg < 0 ? std::array<double, 6>{}
                                    : Nth(anchors_, body.leg).Levers(body));
@@ -44,7 +46,8 @@ MotionBounds::BaseRates MotionBounds::SoleRates(const IntervalMotion& motion, Si
   const Eigen::Vector3d second = motion.second.segment<3>(i);
   BaseRates rates;
   rates.acceleration = second.norm();
-  rates.speed = motion.jet.first.segment<3>(i).norm() + motion.half_width * rates.acceleration;
+  rates.speed = motion.jet.first.segment<3>(i).norm() + motion.half_width * rates.acceleration +
+                motion.off.first.segment<3>(i).sum();
   rates.yaw_acceleration = motion.second[i + 3];
   rates.yaw_rate = std::abs(motion.jet.first[i + 3]) + motion.RateChange(i + 3);
   return rates;
@@ -58,8 +61,8 @@ MotionBounds::BaseRates MotionBounds::WaistRates(const IntervalMotion& motion) c
   const double arm = std::abs(robot_.com_x_B);
   const double second = InSpace(motion.second, kComX, kWaistZ);
   rates.acceleration = second + arm * Turning(rates);
-  rates.speed =
-      InSpace(motion.jet.first, kComX, kWaistZ) + motion.half_width * second + arm * rates.yaw_rate;
+  rates.speed = InSpace(motion.jet.first, kComX, kWaistZ) + motion.half_width * second +
+                arm * rates.yaw_rate + motion.rounding.waist_speed;
   return rates;
 }
 
@@ -86,13 +89,14 @@ MotionBounds::LegRates MotionBounds::RatesOfLeg(const IntervalMotion& motion, Si
   // Seen from the turning waist: d̈ − ψ̈ẑ×d − 2ψ̇ẑ×ḋ + ψ̇²ẑ×(ẑ×d).
   const Eigen::Vector3d lever = posture.X_WSole[s].translation() - posture.X_WB.translation();
   const double speed = rates.sole.speed + waist.speed;
-  rates.sole_B.acceleration =
-      rates.sole.acceleration + waist.acceleration +
-      Turning(waist) * (lever.head<2>().norm() + motion.half_width * speed) +
-      2.0 * waist.yaw_rate * speed;
+  rates.sole_B.acceleration = rates.sole.acceleration + waist.acceleration +
+                              Turning(waist) * (lever.head<2>().norm() + motion.half_width * speed +
+                                                motion.rounding.legs[s].points) +
+                              2.0 * waist.yaw_rate * speed;
   rates.sole_B.yaw_acceleration = rates.sole.yaw_acceleration + waist.yaw_acceleration;
-  rates.sole_B.yaw_rate =
-      std::abs(YawRate(motion.jet, side)) + motion.half_width * rates.sole_B.yaw_acceleration;
+  rates.sole_B.yaw_rate = std::abs(YawRate(motion.jet, side)) +
+                          motion.half_width * rates.sole_B.yaw_acceleration +
+                          motion.off.first[FootIndex(side) + 3] + motion.off.first[kWaistYaw];
   Eigen::Vector3d omega{0, 0, 0}, velocity{0, 0, 0};
   for (size_t i = 0; i < 6; ++i) {
     const Eigen::Vector3d turn =
@@ -128,8 +132,10 @@ bool MotionBounds::BoundLeg(Side side, const BaseRates& waist, const LegRates& r
       motion->second.segment<2>(kComX) +
       Eigen::Vector2d::Constant(Turning(waist) * hip_lever + Turning(sole) * ankle_lever);
   second.z() += motion->second[kWaistZ];
-  const Eigen::Vector3d rate = w_rate.cwiseAbs() + h * second;
-  const Eigen::Vector3d most = w.cwiseAbs() + h * (w_rate.cwiseAbs() + 0.5 * h * second);
+  const LegRounding& off = motion->rounding.legs[s];
+  const Eigen::Vector3d moves = w_rate.cwiseAbs().array() + off.point_speeds;
+  const Eigen::Vector3d rate = moves + h * second;
+  const Eigen::Vector3d most = (w.cwiseAbs() + h * (moves + 0.5 * h * second)).array() + off.points;
   const LegDemand demand{.half_square = rate.squaredNorm() + most.dot(second),
                          // Seen from the turning sole, in the same way.
                          .horizontal = second.head<2>().norm() +
@@ -139,12 +145,14 @@ bool MotionBounds::BoundLeg(Side side, const BaseRates& waist, const LegRates& r
                          .yaw_rate = rates.sole_B.yaw_rate,
                          .yaw_acceleration = rates.sole_B.yaw_acceleration};
   const auto bounds = BoundJoints(anchors, posture.frames[s], posture.speeds[s],
-                                  YawRate(motion->jet, side), demand, h);
+                                  YawRate(motion->jet, side), demand, h, off);
   if (!bounds) return false;
   motion->joints[s] = *bounds;
-  const double change = 2.0 * h * (std::abs(w.dot(w_rate)) + 0.5 * h * demand.half_square);
+  const double change = 2.0 * h *
+                        (std::abs(w.dot(w_rate)) + off.points * w_rate.norm() +
+                         off.point_speeds * w.norm() + 0.5 * h * demand.half_square);
   const double nearest2 = std::max(0.0, w.squaredNorm() - change);
-  motion->leg_length_change[s] = change / (w.norm() + std::sqrt(nearest2));
+  motion->leg_length_change[s] = change / (w.norm() + std::sqrt(nearest2)) + off.reach;
   return true;
 }
 
@@ -159,11 +167,13 @@ bool MotionBounds::BoundOffsetLeg(Side side, const LegRates& rates, IntervalMoti
                         .acceleration = rates_B.acceleration,
                         .yaw_acceleration = rates_B.yaw_acceleration};
   const auto bounds = BoundOffsetJoints(robot_.legs[s], posture.ik[s].q, posture.frames[s],
-                                        posture.speeds[s], drift);
+                                        posture.speeds[s], drift, motion->rounding.legs[s]);
   if (!bounds) return false;
   motion->joints[s] = *bounds;
+  const LegRounding& off = motion->rounding.legs[s];
   motion->leg_length_change[s] = LegLengthChange(LegLengthAt(robot_.legs[s], posture.ik[s].q[3]),
-                                                 motion->half_width * bounds->speed[3]);
+                                                 motion->half_width * bounds->speed[3] + off.q[3]) +
+                                 off.reach;
   return true;
 }
 
@@ -208,16 +218,22 @@ void MotionBounds::BoundBody(size_t index, const BaseRates& waist,
       motion->jet.first[kWaistYaw] * Eigen::Vector3d::UnitZ().cross(R * center_B);
   const double speed_W = velocity_W.norm() + omega_W.norm() * radius;
   const double speed_B = velocity_B.norm() + omega_B.norm() * radius;
-  motion->displacement[index] = h * (speed_W + 0.5 * h * world);
-  motion->displacement_B[index] = h * (speed_B + 0.5 * h * from_waist);
+  const PostureRounding& off = motion->rounding;
+  const LegRounding* leg_off = body.leg < 0 ? nullptr : &Nth(off.legs, body.leg);
+  const double place_off = leg_off ? leg_off->points : off.waist;
+  const double speed_off = leg_off ? leg_off->point_speeds : off.waist_speed;
+  motion->displacement[index] = h * (speed_W + speed_off + 0.5 * h * world) + place_off;
+  motion->displacement_B[index] = h * (speed_B + speed_off + 0.5 * h * from_waist) + place_off;
 }
 
 void MotionBounds::Bound(const WalkJet& mid, const WalkState& second, double half_width,
-                         IntervalMotion* motion) const {
+                         IntervalMotion* motion, const WalkJet* rounding) const {
   HALFSTEP_CHECK(half_width >= 0.0, "half_width = " << half_width);
   motion->half_width = half_width;
   motion->jet = mid;
-  motion->second = second;
+  motion->off = rounding == nullptr ? WalkJet() : *rounding;
+  // Of what is sampled at the interval's ends, which are rounded too.
+  motion->second = second + motion->off.second;
   motion->displacement.resize(robot_.bodies.size());
   motion->displacement_B.resize(robot_.bodies.size());
   motion->posture = SolvePosture(robot_, motion->jet.value);
@@ -225,6 +241,8 @@ void MotionBounds::Bound(const WalkJet& mid, const WalkState& second, double hal
   if (!motion->bounded) return;
   motion->bounded = SolveJointSpeeds(robot_, motion->jet, &motion->posture);
   if (!motion->bounded) return;
+  motion->rounding =
+      rounding == nullptr ? PostureRounding() : rounding_.At(mid, motion->off, motion->posture);
   const BaseRates waist = WaistRates(*motion);
   std::array<LegRates, 2> legs;
   for (Side side : {Side::kLeft, Side::kRight}) {

@@ -5,15 +5,16 @@
 #include <vector>
 
 #include "wpg/motion/posture.h"
+#include "wpg/motion/posture_rounding.h"
 #include "wpg/motion/walk_state.h"
 #include "wpg/robot/leg_motion_bound.h"
 #include "wpg/robot/robot_model.h"
 
 namespace halfstep {
 
-/// How far a robot can be, over an interval of time, from where it is at the interval's midpoint m.
-/// Everything holds for all t in [m − h, m + h], and rates are suprema there. In the world frame
-/// unless said otherwise.
+/// How far a robot can be, over an interval of time, from where it is at the interval's midpoint m:
+/// the exact robot, from where it is computed to be. Everything holds for all t in [m − h, m + h],
+/// and rates are suprema there. In the world frame unless said otherwise.
 struct IntervalMotion {
   double half_width = 0.0;                  ///< h [s]
   WalkJet jet;                              ///< at m
@@ -23,16 +24,22 @@ struct IntervalMotion {
   std::array<double, 2> leg_length_change;  ///< of the hip–ankle distance [m]
   std::vector<double> displacement;         ///< of any point of a body from its place at m [m]
   std::vector<double> displacement_B;       ///< the same, as seen from the waist [m]
+  WalkJet off;               ///< how far jet may be off by rounding; contained in all bounds
+  PostureRounding rounding;  ///< the same of posture
   /// False when there is no bound, because a leg does not reach at m or comes too near to stretched
   /// within the interval.
   bool bounded = false;
 
   /// |x(t) − x(m)| of a quantity.
   double Change(int quantity) const {
-    return half_width * (std::abs(jet.first[quantity]) + 0.5 * half_width * second[quantity]);
+    return half_width * (std::abs(jet.first[quantity]) + off.first[quantity] +
+                         0.5 * half_width * second[quantity]) +
+           off.value[quantity];
   }
   /// sup |ẋ(t) − ẋ(m)| of a quantity.
-  double RateChange(int quantity) const { return half_width * second[quantity]; }
+  double RateChange(int quantity) const {
+    return half_width * second[quantity] + off.first[quantity];
+  }
 };
 
 /// Bounds the motion of one robot. Const and thread-safe; results are the caller's.
@@ -43,9 +50,11 @@ class MotionBounds {
 
   /// Bounds a motion whose quantities are `mid` at m and have |second derivatives| of at most
   /// `second` for all t in [m − h, m + h], h = `half_width` ≥ 0 [s]. The bounds hold for any h, and
-  /// are tight for short ones. Source: smoothing/README.md, "Motion bounds".
-  void Bound(const WalkJet& mid, const WalkState& second, double half_width,
-             IntervalMotion* motion) const;
+  /// are tight for short ones. `rounding` says how far `mid` may be from the motion that is meant:
+  /// value, first and second; without it numbers are taken as exact.
+  /// Source: smoothing/README.md, "Motion bounds" and "Rounding".
+  void Bound(const WalkJet& mid, const WalkState& second, double half_width, IntervalMotion* motion,
+             const WalkJet* rounding = nullptr) const;
 
  private:
   // Motion of the waist or of a sole over the interval: sups of its rates, in W unless said.
@@ -78,6 +87,7 @@ class MotionBounds {
   const RobotModel& robot_;
   std::array<LegAnchors, 2> anchors_;
   std::vector<std::array<double, 6>> levers_;  // LegAnchors::Levers of a leg's body
+  RoundingOfPostures rounding_;
 };
 
 }  // namespace halfstep

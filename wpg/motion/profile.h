@@ -18,6 +18,8 @@ class Profile {
   /// Derivatives of value, first and second at τ with respect to a number of the half-step's shape;
   /// all 0 when the profile does not depend on it. At a knot: of one side.
   virtual ProfileJet ByShape(double HalfStepShape::*number, double tau) const = 0;
+  /// How At is computed where local times are off by at most `time` [s]: holds for all τ.
+  virtual ProfileAccuracy Accuracy(double time) const = 0;
   /// sup |π̈| over local times [from, to] [s], some of which are between 0 and T [1/s²].
   virtual double SecondBound(double from, double to) const = 0;
   /// All values of the third time derivative over local times [from, to] [1/s³], but for

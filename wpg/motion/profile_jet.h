@@ -16,6 +16,14 @@ struct UnitJet {
   }
 };
 
+/// How a form F(σ) is computed: how far its value, s and ss may be from the exact ones at the same
+/// σ, by rounding, and the largest |F|, |F_σ|, |F_σσ|, |F_σσσ|. Source: smoothing/README.md,
+/// "Rounding".
+struct UnitAccuracy {
+  UnitJet error;  ///< value, s and ss
+  UnitJet most;   ///< value, s, ss and sss
+};
+
 /// A profile π(τ; T) of local time τ ∈ [0, T] [s]: value, first and second time derivative, and the
 /// derivatives of these three with respect to the duration T at fixed τ. Exact everywhere;
 /// `second_T` jumps where the third time derivative does.
@@ -27,6 +35,12 @@ struct ProfileJet {
   double value_T = 0.0;   ///< ∂π/∂T [1/s]
   double first_T = 0.0;   ///< ∂π̇/∂T [1/s²]
   double second_T = 0.0;  ///< ∂π̈/∂T [1/s³]
+};
+
+/// The same of a profile: of value, first and second.
+struct ProfileAccuracy {
+  ProfileJet error;  ///< largest error, by rounding
+  ProfileJet most;   ///< largest size
 };
 
 /// π(τ; T) = F(τ/T, ω·T) by the chain rule; `f` taken at σ = τ/T.

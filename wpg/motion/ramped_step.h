@@ -33,6 +33,17 @@ struct RampedStep {
     return jet;
   }
 
+  /// How At is computed: as Smoothstep::Accuracy, of windows as wide as both ramps, whose ends are
+  /// off by twice as much.
+  UnitAccuracy Accuracy() const {
+    if (ramp == 0.5) return Rise().Accuracy();
+    UnitAccuracy accuracy = Rise().Accuracy();
+    for (double* error : {&accuracy.error.value, &accuracy.error.s, &accuracy.error.ss}) {
+      *error *= 2.0;
+    }
+    return accuracy;
+  }
+
   /// Derivatives of At(σ) with respect to `begin` and to `end`: only value, s and ss.
   UnitJet ByBegin(double sigma) const {
     return At(sigma).Moved((sigma - end) / (end - begin), 1.0 / (end - begin));

@@ -8,6 +8,7 @@
 #include "wpg/check.h"
 #include "wpg/motion/pre_bump.h"
 #include "wpg/motion/smoothstep.h"
+#include "wpg/rounded.h"
 
 namespace halfstep {
 namespace {
@@ -29,64 +30,83 @@ UnitJet Reflected(const UnitJet& f) {
 // The same of a derivative of F with respect to a parameter.
 UnitJet ReflectedSlope(const UnitJet& f) { return {.value = -f.value, .s = f.s, .ss = -f.ss}; }
 
-// RestToRest on [0, ½], and its derivative with respect to the bump's ramp.
-struct UnitMotion {
-  UnitDual bump;  // a
-  std::vector<UnitPiece> pieces;
-  double bump_by_ramp;             // a'/a
-  std::vector<UnitPiece> by_ramp;  // but for what a' multiplies
+// RestToRest on [0, ½], and what its derivatives need.
+template <typename Number>
+struct HalfMotion {
+  Number a, gamma;                        // the bump's amplitude, the slope in the middle
+  std::vector<UnitPiece<Number>> pieces;  // those of the bump, and the shift's
+  // Of forced and free motion on the shift, at σ₁; the system's determinant.
+  Number delta, p, p_slope, h, h_slope, determinant;
+  std::vector<Number> free;
 };
 
-void Scale(const UnitDual& amplitude, std::vector<UnitPiece>* pieces) {
-  for (UnitPiece& piece : *pieces) {
-    for (UnitDual& c : piece.com) c = amplitude * c;
-    for (UnitDual& p : piece.zmp) p = amplitude * p;
+// RestToRest on [0, ½], and its derivative with respect to the bump's ramp.
+struct UnitMotion {
+  HalfMotion<UnitDual> half;
+  double bump_by_ramp;                       // a'/a
+  std::vector<UnitPiece<UnitDual>> by_ramp;  // but for what a' multiplies
+};
+
+template <typename Number>
+void Scale(const Number& amplitude, std::vector<UnitPiece<Number>>* pieces) {
+  for (UnitPiece<Number>& piece : *pieces) {
+    for (Number& c : piece.com) c = amplitude * c;
+    for (Number& p : piece.zmp) p = amplitude * p;
   }
 }
 
-UnitMotion SolveMotion(const UnitDual& theta, const UnitDual& fraction, double bump_ramp) {
-  const UnitDual delta = 0.5 * fraction, first = 0.5 - UnitDual(0.5 * fraction);
+template <typename Number>
+HalfMotion<Number> SolveHalf(const Number& theta, const Number& fraction, double bump_ramp) {
+  const Number delta = 0.5 * fraction, first = 0.5 - Number(0.5 * fraction);
   // From rest under the unit pre-bump, piece by piece; through (½, ½) with slope γ: c = forced +
   // γ·free.
-  std::vector<UnitPiece> bump = PreBump(theta, first, bump_ramp);
-  const UnitPiece& last = bump.back();
-  const UnitDual lambda = theta * delta;
-  const UnitSeries forced = SolveLipm(lambda, kShift, UnitDual(0.5), UnitDual(0.0));
-  const UnitSeries free =
-      SolveLipm(lambda, std::array<double, 1>{0.0}, UnitDual(0.0), UnitDual(1.0));
+  std::vector<UnitPiece<Number>> bump = PreBump<Number>(theta, first, bump_ramp);
+  const UnitPiece<Number>& last = bump.back();
+  const Number lambda = theta * delta;
+  std::vector<Number> shift_zmp, none = {Number(0.0)};
+  for (const double p : kShift) shift_zmp.emplace_back(p);
+  const std::vector<Number> forced = SolveLipm<Number>(lambda, shift_zmp, Number(0.5), Number(0.0));
+  const std::vector<Number> free = SolveLipm<Number>(lambda, none, Number(0.0), Number(1.0));
 
   // Value and slope continuous at σ₁: a·F = P + γ·H,  a·F'/σ₁ = (P' + γ·H')/δ.
   const auto [f, f_slope] = Ends(last.com, 1.0);
   const auto [p, p_slope] = Ends(forced, -1.0);
   const auto [h, h_slope] = Ends(free, -1.0);
-  const UnitDual s = f_slope * (delta / last.width);
-  const UnitDual determinant = f * h_slope - s * h;
-  const UnitDual a = (p * h_slope - p_slope * h) / determinant;
-  const UnitDual gamma = (s * p - f * p_slope) / determinant;
-  UnitPiece shift{UnitDual(0.5), delta, {}, UnitSeries(kShift.begin(), kShift.end())};
+  const Number s = f_slope * (delta / last.width);
+  const Number determinant = f * h_slope - s * h;
+  const Number a = (p * h_slope - p_slope * h) / determinant;
+  const Number gamma = (s * p - f * p_slope) / determinant;
+  UnitPiece<Number> shift{Number(0.5), delta, {}, shift_zmp};
   for (size_t k = 0; k < forced.size() || k < free.size(); ++k) {
-    UnitDual c(0.0);
+    Number c(0.0);
     if (k < forced.size()) c = c + forced[k];
     if (k < free.size()) c = c + gamma * free[k];
     shift.com.push_back(c);
   }
+  Scale(a, &bump);
+  bump.push_back(std::move(shift));
+  return {a, gamma, std::move(bump), delta, p, p_slope, h, h_slope, determinant, free};
+}
 
+UnitMotion SolveMotion(const UnitDual& theta, const UnitDual& fraction, double bump_ramp) {
+  UnitMotion motion{
+      .half = SolveHalf(theta, fraction, bump_ramp), .bump_by_ramp = 0.0, .by_ramp = {}};
+  const auto& [a, gamma, pieces, delta, p, p_slope, h, h_slope, determinant, free] = motion.half;
+  const UnitDual first = 0.5 - UnitDual(0.5 * fraction);
   // With F and F' changed by dF and dF', a and γ change so that both equations still hold.
-  std::vector<UnitPiece> slope = PreBumpByRamp(theta, first, bump_ramp);
+  std::vector<UnitPiece<UnitDual>> slope = PreBumpByRamp(theta, first, bump_ramp);
   const auto [df, df_slope] = Ends(slope.back().com, 1.0);
   const UnitDual ds = df_slope * (delta / slope.back().width);
   const double relative = UnitDual((df * h_slope - ds * h) / determinant).value();
   const double gamma_by_ramp =
       UnitDual((ds * p - df * p_slope) / determinant).value() - gamma.value() * relative;
-  UnitPiece shift_by_ramp{UnitDual(0.5), delta, {}, {}};
+  UnitPiece<UnitDual> shift_by_ramp{UnitDual(0.5), delta, {}, {}};
   for (const UnitDual& c : free) shift_by_ramp.com.emplace_back(gamma_by_ramp * c.value());
-
-  Scale(a, &bump);
-  bump.push_back(std::move(shift));
   Scale(a, &slope);
   slope.push_back(std::move(shift_by_ramp));
-  return {
-      .bump = a, .pieces = std::move(bump), .bump_by_ramp = -relative, .by_ramp = std::move(slope)};
+  motion.bump_by_ramp = -relative;
+  motion.by_ramp = std::move(slope);
+  return motion;
 }
 
 }  // namespace
@@ -105,8 +125,8 @@ RestToRest::RestToRest(double theta, double shift_fraction, double bump_ramp)
   const auto coefficient = [](const UnitDual& x) {
     return Coefficient{x.value(), x.derivatives()[0], x.derivatives()[1]};
   };
-  const auto add = [&](const UnitPiece& of, double end, const UnitSeries& series,
-                       std::vector<Piece>* pieces) {
+  const auto add = [&](const UnitPiece<UnitDual>& of, double end,
+                       const std::vector<UnitDual>& series, std::vector<Piece>* pieces) {
     Piece piece{of.center.value(),          of.width.value(),          end,
                 of.center.derivatives()[1], of.width.derivatives()[1], {}};
     piece.coefficients.reserve(series.size());
@@ -114,7 +134,7 @@ RestToRest::RestToRest(double theta, double shift_fraction, double bump_ramp)
     pieces->push_back(std::move(piece));
   };
   // The bump's pieces end at σ₁, the shift's at ½.
-  const auto add_all = [&](const std::vector<UnitPiece>& of, std::vector<Piece>* com,
+  const auto add_all = [&](const std::vector<UnitPiece<UnitDual>>& of, std::vector<Piece>* com,
                            std::vector<Piece>* zmp) {
     for (size_t i = 0; i < of.size(); ++i) {
       const double end = i + 1 == of.size()   ? 0.5
@@ -124,10 +144,31 @@ RestToRest::RestToRest(double theta, double shift_fraction, double bump_ramp)
       add(of[i], end, of[i].zmp, zmp);
     }
   };
-  bump_ = coefficient(motion.bump);
+  bump_ = coefficient(motion.half.a);
   bump_by_ramp_ = motion.bump_by_ramp;
-  add_all(motion.pieces, &com_, &zmp_);
+  add_all(motion.half.pieces, &com_, &zmp_);
   add_all(motion.by_ramp, &com_by_ramp_, &zmp_by_ramp_);
+  FindAccuracy(shift_fraction, bump_ramp, round);
+}
+
+void RestToRest::FindAccuracy(double shift_fraction, double bump_ramp, double round) {
+  const HalfMotion<WithError> half =
+      SolveHalf(WithError(theta_, 4.0 * kRoundoff * theta_), WithError(shift_fraction), bump_ramp);
+  UnitAccuracy &com = com_accuracy_, &zmp = zmp_accuracy_;
+  for (const UnitPiece<WithError>& piece : half.pieces) {
+    AddSeries(piece.com, piece.center, piece.width, &com.error, &com.most);
+    AddSeries(piece.zmp, piece.center, piece.width, &zmp.error, &zmp.most);
+  }
+  const double a = half.a.most(), square = theta_ * theta_ * (1.0 + 16.0 * kRoundoff);
+  com.most.value = zmp.most.value = 1.0 + a;
+  // c is convex on [0, ½], and antisymmetric.
+  com.most.ss = square * (0.5 + a);
+  com.most.s = 0.5 * com.most.ss;
+  const double ramp = std::min(bump_ramp, 0.5);
+  zmp.most.s = std::max(1.0 / (0.5 * shift_fraction),
+                        a / first_ * (4.0 * round + 2.0 * (1.0 - round) / ramp));
+  zmp.most.ss = ZmpSecondBound(0.0, 1.0) * (1.0 + half.a.error() / bump_.value) * 1.001;
+  com.most.sss = square * (com.most.s + zmp.most.s);
 }
 
 template <bool with_theta>

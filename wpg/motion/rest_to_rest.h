@@ -53,6 +53,11 @@ class RestToRest {
   /// of the length around it, since c_σσσ = θ²·(c_σ − p_σ) is continuous.
   Range ComThirdRange(double from, double to) const;
 
+  /// How Com and Zmp are computed, where θ is off by 4 roundings: running errors of the same
+  /// series.
+  const UnitAccuracy& ComAccuracy() const { return com_accuracy_; }
+  const UnitAccuracy& ZmpAccuracy() const { return zmp_accuracy_; }  ///< see ComAccuracy
+
   /// a: how far the ZMP goes beyond either end of the shift, as a fraction of it.
   double bump() const { return bump_.value; }
 
@@ -83,6 +88,9 @@ class RestToRest {
   UnitJet ByBumpRamp(const std::vector<Piece>& pieces, const std::vector<Piece>& by_ramp,
                      double sigma) const;
 
+  // `round`: the share of the round bump.
+  void FindAccuracy(double shift_fraction, double bump_ramp, double round);
+
   double theta_;
   double first_;            // σ₁
   double bump_second_;      // sup|B''|
@@ -92,6 +100,7 @@ class RestToRest {
   // Derivatives with respect to bump_ramp, but for what a multiplies on [0, σ₁]; and a'/a.
   std::vector<Piece> com_by_ramp_, zmp_by_ramp_;
   double bump_by_ramp_ = 0.0;
+  UnitAccuracy com_accuracy_, zmp_accuracy_;
 };
 
 }  // namespace halfstep

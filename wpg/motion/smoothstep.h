@@ -5,6 +5,7 @@
 
 #include "wpg/motion/profile_jet.h"
 #include "wpg/motion/vector_ball.h"
+#include "wpg/rounded.h"
 
 namespace halfstep {
 
@@ -28,6 +29,14 @@ struct Smoothstep {
             .s = 30.0 * x * x * y * y * r,
             .ss = 60.0 * x * y * (1.0 - 2.0 * x) * r * r,
             .sss = 60.0 * (1.0 - 6.0 * x * y) * r * r * r};
+  }
+
+  /// How At is computed, where `begin` and `end` are off by 4 roundings: x then by 20 over the
+  /// window's width, at most.
+  UnitAccuracy Accuracy() const {
+    const double r = 1.0 / (end - begin), e = kRoundoff * r;
+    return {.error = {.value = 60.0 * e, .s = 160.0 * e * r, .ss = 1400.0 * e * r * r},
+            .most = {.value = 1.0, .s = 1.875 * r, .ss = 5.78 * r * r, .sss = 60.0 * r * r * r}};
   }
 
   /// Derivatives of At(σ) with respect to `begin` and to `end`: only value, s and ss.

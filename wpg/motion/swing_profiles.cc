@@ -17,6 +17,9 @@ class FormProfile : public Profile {
     return time_.Jet(form_.At(sigma), sigma);
   }
   ProfileJet ByShape(double HalfStepShape::*, double) const override { return {}; }
+  ProfileAccuracy Accuracy(double time) const override {
+    return time_.Accuracy(form_.Accuracy(), time);
+  }
   double SecondBound(double from, double to) const override {
     return time_.Second(form_.SecondBound(time_.Of(from), time_.Of(to)));
   }

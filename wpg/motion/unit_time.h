@@ -4,6 +4,7 @@
 
 #include "wpg/motion/profile_jet.h"
 #include "wpg/motion/vector_ball.h"
+#include "wpg/rounded.h"
 
 namespace halfstep {
 
@@ -28,6 +29,15 @@ struct UnitTime {
   Range Third(const Range& f_sss) const {
     const double r = 1.0 / (duration * duration * duration);
     return {r * f_sss.center, r * f_sss.radius};
+  }
+  /// How Jet is computed, local times off by at most `time` [s].
+  ProfileAccuracy Accuracy(const UnitAccuracy& of, double time) const {
+    const double r = 1.0 / duration, off = time * r + 2.0 * kRoundoff;
+    return {.error = {.value = of.error.value + of.most.s * off,
+                      .first = r * (of.error.s + of.most.ss * off + 4.0 * kRoundoff * of.most.s),
+                      .second =
+                          r * r * (of.error.ss + of.most.sss * off + 6.0 * kRoundoff * of.most.ss)},
+            .most = {.value = of.most.value, .first = r * of.most.s, .second = r * r * of.most.ss}};
   }
   /// The interval of σ without what the rounding of absolute times may have added at its ends:
   /// there knots lie, mostly of the same half-step, and beyond one a derivative may be much larger.

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "wpg/robot/leg_ik.h"
+#include "wpg/robot/leg_rounding.h"
 #include "wpg/robot/robot_model.h"
 
 namespace halfstep {
@@ -62,9 +63,11 @@ struct JointBounds {
 /// hip–ankle distance, then the ankle, then the hip. The proof is a bootstrap: assumed bounds of
 /// the speeds hold where they imply smaller ones. Returns none when it fails, because h =
 /// `half_width` [s] is too long or the leg too nearly stretched. Where there is a bound, the leg
-/// reaches and stays in its branch. Source: smoothing/README.md, "Motion bounds".
+/// reaches and stays in its branch. `off` says how far frames and speeds may be off by rounding.
+/// Source: smoothing/README.md, "Motion bounds" and "Rounding".
 std::optional<JointBounds> BoundJoints(const LegAnchors& anchors, const LegFrames& frames,
                                        const Vector6d& speeds, double yaw_rate,
-                                       const LegDemand& demand, double half_width);
+                                       const LegDemand& demand, double half_width,
+                                       const LegRounding& off = {});
 
 }  // namespace halfstep

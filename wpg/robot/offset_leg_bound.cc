@@ -15,11 +15,15 @@ using Eigen::Vector3d;
 // Sups of q̈ given sups of q̇: (I + J⁻¹ΔJ) q̈ = J⁻¹(V̇ − J̇q̇), with J⁻¹ that at m.
 class OffsetJoints {
  public:
-  OffsetJoints(const LegNeighbourhood& near, double rate, const SoleDrift& drift)
-      : near_(near), h_(drift.half_width), asked_(near.Asked(drift.yaw_acceleration, rate)) {}
+  OffsetJoints(const LegNeighbourhood& near, double rate, const SoleDrift& drift,
+               const Vector6d& off)
+      : near_(near),
+        h_(drift.half_width),
+        asked_(near.Asked(drift.yaw_acceleration, rate)),
+        off_(off) {}
 
   std::optional<Vector6d> Accelerations(const Vector6d& speeds) const {
-    const Vector6d radius = h_ * speeds;
+    const Vector6d radius = h_ * speeds + off_;
     const Matrix6d change = near_.Change(radius);
     const auto contraction = Contraction::Of(change);
     if (!contraction) return std::nullopt;
@@ -29,7 +33,7 @@ class OffsetJoints {
  private:
   const LegNeighbourhood& near_;
   double h_;
-  Vector6d asked_;
+  Vector6d asked_, off_;
 };
 
 // Angular velocity of link `link` at m, seen from the waist (links 0–2) or the sole.
@@ -68,21 +72,23 @@ std::array<TurnBound, 6> Turns(const LegFrames& frames, const Vector6d& at_m,
 
 std::optional<JointBounds> BoundOffsetJoints(const Leg& leg, const Vector6d& q,
                                              const LegFrames& frames, const Vector6d& speeds,
-                                             const SoleDrift& drift) {
+                                             const SoleDrift& drift, const LegRounding& off) {
   const Eigen::Isometry3d& X_BSole = frames.X_BLink[6];
   const auto near = LegNeighbourhood::Around(leg, q);
   if (!near || !ContinueLeg(leg, X_BSole, drift).arrived) return std::nullopt;
   const double h = drift.half_width;
-  const OffsetJoints joints(*near, drift.TwistRate(leg.hip_B, X_BSole.translation()), drift);
+  const OffsetJoints joints(*near, drift.TwistRate(leg.hip_B, X_BSole.translation()), drift, off.q);
   Vector6d accelerations;
-  const auto most = Bootstrap<Vector6d>(speeds.cwiseAbs(), h, [&](const Vector6d& assumed) {
-    const auto given = joints.Accelerations(assumed);
-    if (given) accelerations = *given;
-    return given;
-  });
+  const auto most =
+      Bootstrap<Vector6d>(speeds.cwiseAbs() + off.speeds, h, [&](const Vector6d& assumed) {
+        const auto given = joints.Accelerations(assumed);
+        if (given) accelerations = *given;
+        return given;
+      });
   if (!most) return std::nullopt;
   JointBounds bounds{.speed = *most, .acceleration = accelerations, .turns = {}};
   bounds.turns = Turns(frames, speeds, bounds, h);
+  for (TurnBound& turn : bounds.turns) turn.speed += off.speeds.sum() + off.turn * most->sum();
   return bounds;
 }
 

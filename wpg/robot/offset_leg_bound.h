@@ -13,10 +13,10 @@ namespace halfstep {
 /// and the sole's motion seen from the waist. The proof is a bootstrap: assumed bounds of the
 /// speeds hold where they imply smaller ones. Returns none when it fails. Where there is a bound,
 /// the leg stays in its branch (ContinueLeg) and regular. Source: smoothing/README.md, "Motion
-/// bounds".
+/// bounds". `off` says how far angles and speeds may be off by rounding.
 std::optional<JointBounds> BoundOffsetJoints(const Leg& leg, const Vector6d& q,
                                              const LegFrames& frames, const Vector6d& speeds,
-                                             const SoleDrift& drift);
+                                             const SoleDrift& drift, const LegRounding& off = {});
 
 /// A bound of the hip–ankle distance's change while the knee turns by at most `turn` [rad].
 double LegLengthChange(const LegLength& length, double turn);

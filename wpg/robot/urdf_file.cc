@@ -101,7 +101,8 @@ UrdfJoint ToJoint(const urdf::Joint& joint, const UrdfFindings& found) {
   }
   out.kind =
       joint.type == urdf::Joint::REVOLUTE ? UrdfJoint::Kind::kRevolute : UrdfJoint::Kind::kOther;
-  if (out.kind == UrdfJoint::Kind::kRevolute) {
+  out.slides = joint.type == urdf::Joint::PRISMATIC;
+  if (out.moves()) {
     out.axis = ToEigen(joint.axis).normalized();
     out.lower = joint.limits->lower;
     out.upper = joint.limits->upper;

@@ -48,14 +48,17 @@ struct UrdfJoint {
   int child = -1;                                                   ///< link index.
   Eigen::Isometry3d X_ParentChild = Eigen::Isometry3d::Identity();  ///< at angle 0.
   Eigen::Vector3d axis{1, 0, 0};                                    ///< unit, in the child's frame.
-  double lower = 0.0;                                               ///< [rad]
-  double upper = 0.0;                                               ///< [rad]
+  double lower = 0.0;               ///< [rad], or [m] where it slides
+  double upper = 0.0;               ///< the same
   bool turns_freely = false;        ///< continuous: limited to one turn for legs alone
+  bool slides = false;              ///< prismatic, which is of kind kOther
   double max_speed = 0.0;           ///< [rad/s]
   double max_effort = 0.0;          ///< [N m]; 0: not told
   std::string mimics;               ///< the joint that it follows; "": none
   std::vector<std::string> faults;  ///< for which it can be no joint of a leg: complaints
   UrdfPlace place;                  ///< for complaints
+
+  bool moves() const { return kind == Kind::kRevolute || slides; }  ///< by one number
 };
 
 /// A URDF's kinematic tree, masses and collision geometry as plain values. Links come after the

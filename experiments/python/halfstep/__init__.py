@@ -15,6 +15,7 @@ Mistakes in files and dicts raise ``InputError`` with every complaint.
 """
 
 from . import _halfstep
+from .check import Check, Finding, check
 from .config import configs, load_config, methods, planners, robots, scenes, solvers
 from .errors import InputError, SolveStopped
 from .experiment import Experiment, Plan
@@ -30,7 +31,7 @@ from .walk import Certificate, MarginGradients, Sensitivities, Walk
 __version__: str = _halfstep.version
 
 __all__ = [
-    "Certificate", "Experiment", "InputError", "MarginGradients", "Measured", "NotCovered",
+    "Certificate", "Check", "Experiment", "Finding", "InputError", "MarginGradients", "Measured", "NotCovered",
     "OverlapProgram", "Plan", "PlannedInstant", "Refinement", "Replay", "Result", "Robot", "Run", "Scene", "Sensitivities", "SmoothingProblem",
-    "SolveStopped", "SolverProblem", "Table", "Verification", "Walk", "configs", "load_config",
+    "SolveStopped", "SolverProblem", "Table", "Verification", "Walk", "check", "configs", "load_config",
     "methods", "planners", "register_smoother", "register_solver", "robots", "scenes", "solvers"]

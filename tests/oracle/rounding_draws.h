@@ -1,0 +1,49 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "wpg/robot/robot_model.h"
+
+namespace halfstep::oracle {
+
+/// Errors of computed numbers against exact ones, over the bounds of smoothing/README.md,
+/// "Rounding".
+struct RoundingTally {
+  /// Of one elementary quantity.
+  struct Part {
+    long draws = 0;         ///< with a bound
+    long undecided = 0;     ///< without one
+    double largest = 0;     ///< error over bound
+    double of_typical = 0;  ///< the sum of log₁₀(bound), over draws its mean
+  };
+  std::map<std::string, Part> parts;  ///< by name
+
+  void Add(const std::string& part, double error, double bound);
+  void Add(const RoundingTally& other);
+};
+
+/// Forms of half-steps at random times, widths, ramps, θ: value and two derivatives.
+void DrawForms(long draws, unsigned seed, RoundingTally* tally);
+/// Quantities of drawn walks (nasty_draws.h) at random instants; of `steps` steps where that is
+/// above 0.
+void DrawWalks(const std::string& robot_file, long draws, int steps, unsigned seed,
+               RoundingTally* tally);
+/// Legs of a robot that is `scale` times as large, at poses from bent to stretched to 1e-12 of
+/// their length, up to 1 km from the origin, with yaws of many turns; the pose is moved by as much
+/// as is said to be its error.
+void DrawLegs(const RobotModel& robot, double scale, long draws, unsigned seed,
+              RoundingTally* tally);
+
+/// Sums, products and quotients of random numbers (wpg/rounded.h).
+void DrawNumbers(long draws, unsigned seed, RoundingTally* tally);
+/// Points inside the support polygon of two soles, up to 900 m away and down to 1e-13 m from being
+/// in line with each other.
+void DrawSupports(long draws, unsigned seed, RoundingTally* tally);
+/// Distances of polygons as large as soles, treads and rooms, of corners that are exact.
+void DrawPolygons(long draws, unsigned seed, RoundingTally* tally);
+/// Slabs between two bodies of a robot, apart, up to 900 m away: how much wider than the exact one
+/// along the same direction.
+void DrawDistances(const RobotModel& robot, long draws, unsigned seed, RoundingTally* tally);
+
+}  // namespace halfstep::oracle

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "wpg/robot/robot_model.h"
+
+namespace halfstep {
+
+/// How far rounding may carry what is computed of one leg from what the exact leg does in the exact
+/// walk. +∞ where nothing can be said: the leg is too nearly stretched for its numbers.
+struct LegRounding {
+  Vector6d q = Vector6d::Zero();       ///< of each joint angle [rad]
+  Vector6d speeds = Vector6d::Zero();  ///< of each joint speed [rad/s]
+  double turn = 0.0;          ///< of the direction of an axis or a link, seen from the waist [rad]
+  double reach = 0.0;         ///< of LegIkSolution::reach_margin [m]
+  double points = 0.0;        ///< of a point of a body of the leg, in W [m]
+  double point_speeds = 0.0;  ///< of such a point's velocity [m/s]
+  /// Sums of the rows of a bound of |1 − Y J|, Y the computed inverse of the exact Jacobian J.
+  Vector6d of_inverse = Vector6d::Zero();
+  double chain = 0.0;  ///< the way along the leg from B's origin to the sole, in any posture [m]
+};
+
+}  // namespace halfstep
