@@ -32,6 +32,7 @@ constexpr KindText kTexts[] = {{Kind::kContact, "one foot in the air", "s", 1.0}
                                {Kind::kClearance, "clearance", "mm", 1e3},
                                {Kind::kGround, "ground", "mm", 1e3},
                                {Kind::kNoStep, "no-step areas", "mm", 1e3},
+                               {Kind::kFoothold, "footholds", "mm", 1e3},
                                {Kind::kZmpRobot, "zmp of the robot", "mm", 1e3},
                                {Kind::kFriction, "friction", "", 1.0},
                                {Kind::kTorque, "torque", "N m", 1.0},

@@ -55,7 +55,8 @@ struct TrajectoryFinding {
     kFriction,
     kTorque,
     kStill,
-    kTilt
+    kTilt,
+    kFoothold
   };
   Kind kind = Kind::kLimits;  ///< what it is about
   std::string subject;        ///< "elbow", "forearm - shelf"
@@ -69,7 +70,7 @@ struct TrajectoryFinding {
   std::optional<double> at_knots = {};
   /// Of a contact or the ground that is not proved: the least limit that is, for all t [m, rad].
   std::optional<double> holds = {};
-  bool slides = false;  ///< it is about a joint that slides: in m, not rad
+  bool slides = false;        ///< it is about a joint that slides: in m, not rad
   bool hint_missing = false;  ///< not proved, for the proof tells no direction there
 };
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "experiments/checker/interval_proof.h"
+#include "experiments/checker/standing_soles.h"
 #include "experiments/checker/walk_statements.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/text.h"
@@ -15,19 +15,10 @@ namespace {
 
 using Kind = TrajectoryFinding::Kind;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // An interval is not halved below this [s], nor where its bound is as near to its value.
 constexpr double kFinest = 1e-6, kMissed = 1e-9;
 constexpr std::int64_t kMostIntervals = 2'000'000;  // intervals
 constexpr double kRoundedShift = 1e-12;             // how much shorter a shift may be [s]
-
-// By family; of the last two there are no findings.
-constexpr std::array<Kind, verify::kNumFamilies> kKinds = {
-    Kind::kFloor,       Kind::kFootSpeed, Kind::kFootYawRate,  Kind::kZmp,
-    Kind::kReach,       Kind::kLimits,    Kind::kSpeed,        Kind::kSelfClearance,
-    Kind::kClearance,   Kind::kGround,    Kind::kNoStep,       Kind::kZmpRobot,
-    Kind::kTorque,      Kind::kFriction,  Kind::kAcceleration, Kind::kDoubleSupport,
-    Kind::kLandingSpeed};
 
 // Proves statements on the whole walk, all of those that are open on one interval at once.
 class WalkProof {
@@ -42,7 +33,7 @@ class WalkProof {
         check_(*check),
         solvers_{LegSolver(robot.legs[0]), LegSolver(robot.legs[1])} {
     for (const WalkStatement& statement : statements_.all()) {
-      findings_.push_back({.kind = Nth(kKinds, statement.family),
+      findings_.push_back({.kind = KindOf(statement.family),
                            .subject = statement.subject,
                            .proved = true,
                            .demanded = statement.demanded,
@@ -137,65 +128,7 @@ void AddTimes(const WalkMotion& motion, double demanded, TrajectoryCheck* check)
   }
 }
 
-ConvexBody FlatBody(const Eigen::Matrix2Xd& polygon) {
-  ConvexBody body;
-  body.vertices.setZero(3, polygon.cols());
-  body.vertices.topRows(2) = polygon;
-  body.center << polygon.rowwise().mean(), 0.0;
-  for (Eigen::Index i = 0; i < polygon.cols(); ++i) {
-    body.radius = std::max(body.radius, (body.vertices.col(i) - body.center).norm());
-  }
-  body.radius *= 1.0 + 1e-12;
-  return body;
-}
-
-// Each sole where it stands at some time, and each area, by its hull.
-void AddSteps(const WalkMotion& motion, const RobotModel& robot, const Scene& scene,
-              double demanded, ProofHints* hints, TrajectoryCheck* check) {
-  const ConvexBody outline = FlatBody(robot.sole_outline);
-  std::vector<std::pair<double, size_t>> places = {{0.0, 0}, {0.0, 1}};  // time, side
-  for (const WalkMotion::Flight& flight : motion.flights()) {
-    places.emplace_back(std::min(flight.end, motion.end()), flight.side);
-  }
-  for (size_t k = 0; k < scene.no_step.size(); ++k) {
-    const ConvexBody area = FlatBody(scene.no_step[k]);
-    for (size_t place = 0; place < places.size(); ++place) {
-      const auto [t, side] = places[place];
-      const WalkNumbers x = motion.On(t, t);
-      const Curve* const sole = &x[kSole + 4 * side];
-      FrameIn<Curve> X_WF =
-          TurnAbout(Eigen::Vector3d::UnitZ(), SinCosOf(sole[3])[0], SinCosOf(sole[3])[1]);
-      X_WF.p = {sole[0], sole[1], 0.0};
-      const VectorIn<Curve> moved = X_WF * VectorOf<Curve>(outline.center);
-      const Vector center = {moved[0].over[0], moved[1].over[0], 0.0};
-      const Vector at_rest = VectorOf(area.center);
-      ProofHints::Directions& known = hints->directions[{verify::kNoStep, place, k}];
-      Eigen::Vector3d direction = ProofHints::At(known, t);
-      const Kept kept =
-          WalkStatements::Apart({area, FrameIn<Curve>(), at_rest}, {outline, X_WF, center},
-                                demanded, &direction, hints->told);
-      if (!hints->told && direction.isZero()) {  // their circles are apart
-        const Vector away = center - at_rest;
-        direction << away[0].Middle(), away[1].Middle(), 0.0;
-      }
-      if (!hints->told) ProofHints::Note(t, direction.normalized(), &known);
-      check->findings.push_back({.kind = Kind::kNoStep,
-                                 .subject = Formatted("sole at %.3f s - area %zu", t, k + 1),
-                                 .proved = kept.bound > 0.0 && kept.bound >= demanded,
-                                 .demanded = demanded,
-                                 .least = kept.bound,
-                                 .at = t,
-                                 .hint_missing = kept.hint_missing});
-    }
-  }
-}
-
-void RefuseUnknown(const RobotModel& robot, const Scene& scene,
-                   const verify::CertificateText& certificate) {
-  const auto level = scene.ground->OnlyLevel();
-  if (!level || level->height != 0.0 || !scene.ground->Solids().empty()) {
-    throw InputError({"the scene has levels (valid here: a level floor at z = 0)"});
-  }
+void RefuseUnknown(const RobotModel& robot, const verify::CertificateText& certificate) {
   if (certificate.tube) {
     throw InputError({"the certificate is of a tube (valid here: of the walk alone)"});
   }
@@ -208,10 +141,21 @@ void RefuseUnknown(const RobotModel& robot, const Scene& scene,
 
 }  // namespace
 
+Kind KindOf(verify::Family family) {
+  constexpr Kind kKinds[] = {Kind::kFloor,         Kind::kFootSpeed,     Kind::kFootYawRate,
+                             Kind::kZmp,           Kind::kReach,         Kind::kLimits,
+                             Kind::kSpeed,         Kind::kSelfClearance, Kind::kClearance,
+                             Kind::kGround,        Kind::kNoStep,        Kind::kZmpRobot,
+                             Kind::kTorque,        Kind::kFriction,      Kind::kAcceleration,
+                             Kind::kDoubleSupport, Kind::kLandingSpeed,  Kind::kFoothold};
+  return kKinds[family];
+}
+
 TrajectoryCheck CheckWalk(const WalkTables& tables, const RobotModel& robot, const Scene& scene,
                           const verify::CertificateText& certificate, double crouch,
-                          const std::function<bool(double done)>& progress, ProofHints* hints) {
-  RefuseUnknown(robot, scene, certificate);
+                          const std::function<bool(double done)>& progress, ProofHints* hints,
+                          double from) {
+  RefuseUnknown(robot, certificate);
   TrajectoryCheck check;
   ProofHints found;
   if (hints == nullptr) hints = &found;
@@ -219,16 +163,16 @@ TrajectoryCheck CheckWalk(const WalkTables& tables, const RobotModel& robot, con
   WalkStatements statements(robot, scene, certificate);
   const auto demanded = [&](verify::Family family) { return Nth(certificate.demanded, family); };
   AddTimes(motion, demanded(verify::kDoubleSupport), &check);
-  if (demanded(verify::kNoStep) != verify::kNotDemanded) {
-    AddSteps(motion, robot, scene, demanded(verify::kNoStep), hints, &check);
-  }
+  AddStandingSoles(motion, robot, scene, certificate, from, hints, &check);
   WalkProof proof(robot, motion, crouch, &statements, hints, &check);
-  std::vector<double> knots = motion.knots();
-  for (const double t : statements.WaypointTimes()) {
+  std::vector<double> knots = motion.knots(), waypoints = statements.WaypointTimes();
+  waypoints.push_back(from);
+  for (const double t : waypoints) {
     if (t > 0.0 && t < motion.end()) knots.push_back(t);
   }
+  std::erase_if(knots, [&](double t) { return t < from; });
   std::ranges::sort(knots);
-  if (!hints->told) hints->times.push_back(knots.front());
+  if (!hints->told && !knots.empty()) hints->times.push_back(knots.front());
   for (size_t i = 0; i + 1 < knots.size() && !check.stopped; ++i) {
     proof.Prove(knots[i], knots[i + 1]);
     check.stopped = progress && !progress(knots[i + 1] / motion.end());
@@ -236,9 +180,9 @@ TrajectoryCheck CheckWalk(const WalkTables& tables, const RobotModel& robot, con
   proof.Finish();
   for (size_t f = 0; f < verify::kNumFamilies; ++f) {
     const auto family = static_cast<verify::Family>(f);
-    const bool known = family != verify::kFoothold && family != verify::kOwn;
+    const bool known = family != verify::kOwn;
     if (demanded(family) == verify::kNotDemanded ||
-        (known && std::ranges::count(check.findings, kKinds[f], &TrajectoryFinding::kind))) {
+        (known && std::ranges::count(check.findings, KindOf(family), &TrajectoryFinding::kind))) {
       continue;
     }
     check.not_covered.push_back(

@@ -12,18 +12,20 @@
 
 namespace halfstep::checker {
 
-/// Whether a walk keeps all that its certificate says is demanded, at every instant from 0 to its
-/// end, found from the walk's definition alone: rows of certificates are not read. Time is halved
-/// where the bounds of a statement do not suffice, down to 1 µs. Findings have the families of
-/// smoothing/README.md, "Margins"; what is demanded of a family that is not looked at is among
+/// Whether a walk keeps all that its certificate says is demanded, at every instant from `from` to
+/// its end, found from the walk's definition alone: rows of certificates are not read. Time is
+/// halved where the bounds of a statement do not suffice, down to 1 µs. Findings have the families
+/// of smoothing/README.md, "Margins"; what is demanded of a family that is not looked at is among
 /// `not_covered`. `crouch`: how far the waist is kept below where the robot file has it [m].
 /// `progress(done)`, done ∈ [0, 1], says whether to go on. `hints`: where directions that were
-/// found are noted, or those that are told. Throws InputError for walks, robots and
-/// scenes of which nothing can be said here: levels, offset legs, tubes, maps.
-/// Source: experiments/check.md.
+/// found are noted, or those that are told. Throws InputError for walks, robots and scenes of which
+/// nothing can be said here: offset legs, tubes, maps. Source: experiments/check.md.
 TrajectoryCheck CheckWalk(const WalkTables& tables, const RobotModel& robot, const Scene& scene,
                           const verify::CertificateText& certificate, double crouch,
                           const std::function<bool(double done)>& progress = {},
-                          ProofHints* hints = nullptr);
+                          ProofHints* hints = nullptr, double from = 0.0);
+
+/// What findings of a family are about. Precondition: it is not kOwn.
+TrajectoryFinding::Kind KindOf(verify::Family family);
 
 }  // namespace halfstep::checker

@@ -10,11 +10,11 @@
 namespace halfstep::checker {
 namespace {
 
-// A sole seen from above.
+// A sole.
 struct Place {
-  Interval x, y, yaw;
+  Interval x, y, z, yaw;
 
-  // The point (ahead, aside) of it.
+  // The point (ahead, aside) of it, seen from above.
   std::array<Interval, 2> Of(const Interval& ahead, const Interval& aside) const {
     const auto [s, c] = SinCosOf(yaw);
     return {x + c * ahead - s * aside, y + s * ahead + c * aside};
@@ -27,99 +27,126 @@ struct Place {
 
 Interval Mean(const Interval& a, const Interval& b) { return Interval(0.5) * (a + b); }
 
+// Of a row, or of the plan where it has none.
+verify::FormColumns FormOf(const verify::HalfStepRow& row, const verify::FormColumns& planned) {
+  verify::FormColumns form = row.form.value_or(planned);
+  for (const verify::FormColumn& one : verify::kRiseColumns) {
+    if (!row.has_rise) form.*one.value = planned.*one.value;
+  }
+  return form;
+}
+
+// A form of which profiles are known.
+bool CanBe(const verify::FormColumns& form) {
+  return form.zmp_shift > 0.0 && form.zmp_shift <= 0.5 && form.zmp_bump_ramp >= 0.1 &&
+         form.zmp_bump_ramp <= 1.0 && form.foot_ramp >= 0.1 && form.foot_ramp <= 0.5 &&
+         form.lift_share > 0.0 && form.lift_share <= 1.0 && form.foot_delay >= 0.0 &&
+         form.foot_delay < 0.45 * (1.0 - form.zmp_shift) && form.rise_begin >= 0.0 &&
+         form.rise_begin < form.rise_end && form.rise_end <= 1.0;
+}
+
 }  // namespace
+
+WalkTables WalkTables::CutAfter(size_t last) const {
+  WalkTables cut = *this;
+  cut.half_steps.resize(last + 1);
+  cut.starts.resize(last + 1);
+  cut.footsteps.resize(last / 2 + 3);
+  return cut;
+}
 
 WalkMotion::WalkMotion(const WalkTables& tables) {
   const auto& [footsteps, rows, starts, planned, com_height] = tables;
-  if (footsteps.size() < 3 || rows.size() != 2 * (footsteps.size() - 2) ||
+  if (footsteps.size() < 3 || (rows.size() + 1) / 2 != footsteps.size() - 2 ||
       starts.size() != rows.size()) {
     throw InputError({"half_steps.csv: has not two half-steps for each row of footsteps.csv"});
   }
   const Interval omega_squared = Interval(kGravity) / com_height;
   std::array<Place, 2> soles;
   for (const verify::FootstepRow& row : footsteps) {
-    if (row.z != 0.0) throw InputError({"footsteps.csv: heights (valid here: a level floor)"});
-    if (row.footstep == 0)
-      soles[row.foot == "left" ? 0 : 1] = {row.X_WF.x, row.X_WF.y, row.X_WF.yaw};
+    if (row.footstep != 0) continue;
+    soles[row.foot == "left" ? 0 : 1] = {row.X_WF.x, row.X_WF.y, row.z, row.X_WF.yaw};
   }
-  const auto add_rest = [&](const std::array<Interval, 2>& com, const Interval& yaw) {
+  const auto add_rest = [&](const std::array<Interval, 2>& com, const Interval& yaw,
+                            const Interval& waist_z) {
     Rest& rest = rests_.emplace_back();
     for (size_t i = 0; i < 2; ++i) rest[kCom + i] = rest[kZmp + i] = com[i];
     rest[kYaw] = yaw;
+    rest[kWaistZ] = waist_z;
     for (size_t side = 0; side < 2; ++side) {
-      const size_t at = kSole + 4 * side;
-      rest[at] = soles[side].x, rest[at + 1] = soles[side].y, rest[at + 3] = soles[side].yaw;
+      const Place& sole = soles[side];
+      std::ranges::copy(std::array{sole.x, sole.y, sole.z, sole.yaw},
+                        rest.begin() + kSole + 4 * side);
     }
-    return &rest;
   };
   const auto add_standing = [&] {
+    const Interval &z = soles[0].z, &w = soles[1].z;  // over the lower one
     add_rest({Mean(soles[0].x, soles[1].x), Mean(soles[0].y, soles[1].y)},
-             Mean(soles[0].yaw, soles[1].yaw));
+             Mean(soles[0].yaw, soles[1].yaw), {std::min(z.lo, w.lo), std::min(z.hi, w.hi)});
   };
   add_standing();
+  Place from;  // of the foot that swings
   for (size_t i = 0; i < rows.size(); ++i) {
     const verify::HalfStepRow& row = rows[i];
     const bool up = i % 2 == 0;
     const size_t support = row.support == "left" ? 0 : 1, swing = 1 - support;
     const verify::FootstepRow& footstep = footsteps[i / 2 + 2];
-    const verify::FormColumns form = row.form.value_or(planned);
+    const verify::FormColumns form = FormOf(row, planned);
     if (row.kind != (up ? "up" : "down") || footstep.foot == row.support) {
       Refuse(i, "is not of its footstep");
     }
-    const verify::HalfStepRow& other = rows[up ? i + 1 : i - 1];
-    const verify::FormColumns of_other = other.form.value_or(planned);
+    const verify::HalfStepRow& other = rows[up ? std::min(i + 1, rows.size() - 1) : i - 1];
+    const verify::FormColumns of_other = FormOf(other, planned);
     if (other.support_point != row.support_point || other.height_scale != row.height_scale ||
         of_other.via_lateral != form.via_lateral || of_other.via_along != form.via_along) {
       Refuse(i, "the other one of its step is elsewhere where they meet");
     }
-    if (!(row.duration > 0.0 && form.zmp_shift > 0.0 && form.zmp_shift <= 0.5 &&
-          form.zmp_bump_ramp >= 0.1 && form.zmp_bump_ramp <= 1.0 && form.foot_ramp >= 0.1 &&
-          form.foot_ramp <= 0.5 && form.lift_share > 0.0 && form.lift_share <= 1.0 &&
-          form.foot_delay >= 0.0 && form.foot_delay < 0.45 * (1.0 - form.zmp_shift))) {
-      Refuse(i, "is none that there can be");
-    }
+    if (!(row.duration > 0.0) || !CanBe(form)) Refuse(i, "is none that there can be");
     const Interval duration = row.duration, start = starts[i], shift = form.zmp_shift;
     const Interval first = Interval(0.5) - Interval(0.5) * shift, second = Interval(1.0) - first;
     const Interval lift = Interval(form.lift_share) * first, delay = form.foot_delay;
+    const Interval rise_begin = form.rise_begin, rise_end = form.rise_end;
     steps_.push_back(
         {start, duration, start + duration, shift * duration, swing, Profile::Step(0.0, 1.0),
          up ? Profile::RampedStep(second + delay, 1.0, form.foot_ramp)
             : Profile::RampedStep(0.0, first - delay, form.foot_ramp),
          up ? Profile::Step(second, second + lift) : Profile::Step(first - lift, first),
+         up ? Profile::Step(rise_begin, rise_end)
+            : Profile::Step(Interval(1.0) - rise_end, Interval(1.0) - rise_begin),
          Pendulum::Of(omega_squared * Square(duration), shift, form.zmp_bump_ramp)});
     const auto later = [](const Interval& a, const Interval& b) { return a.lo > b.lo + 1e-9; };
     if (i > 0 && (later(steps_[i - 1].start, start) || later(steps_[i - 1].end, steps_[i].end))) {
       Refuse(i, "begins or ends before the one before it");
     }
+    const HalfStep& now = steps_.back();
+    const auto time = [&](const Interval& sigma) { return start + sigma * duration; };
     if (up) {
-      const double aside = swing == 0 ? 1.0 : -1.0;
+      const Interval aside = swing == 0 ? 1.0 : -1.0;
       const Place& on = soles[support];
-      const auto via = on.Of(form.via_along, Interval(aside) * Interval(form.via_lateral));
-      soles[swing] = {via[0], via[1], on.yaw};
-      (*add_rest(on.Of(0.0, Interval(aside) * Interval(row.support_point)),
-                 on.yaw))[kSole + 4 * swing + 2] =
-          Interval(row.height_scale) * Interval(footstep.via_height);
+      const auto [x, y] = on.Of(form.via_along, aside * Interval(form.via_lateral));
+      from = soles[swing];
+      soles[swing] = {x, y, on.z + Interval(row.height_scale) * Interval(footstep.via_height),
+                      on.yaw};
+      add_rest(on.Of(0.0, aside * Interval(row.support_point)), on.yaw, on.z);
+      flights_.push_back({swing, time(now.height.span().first).lo, now.end.hi,
+                          time(now.way.span().first).lo, now.end.hi, from.z.Middle(), false});
       continue;
     }
     const Pose2 &X_WF = footstep.X_WF, &move = form.footstep;
-    const Place at{X_WF.x, X_WF.y, X_WF.yaw};
+    const Place at{X_WF.x, X_WF.y, footstep.z, X_WF.yaw};
     const auto [x, y] = at.Of(move.x, move.y);
-    soles[swing] = {x, y, at.yaw + Interval(move.yaw)};
+    soles[swing] = {x, y, at.z, at.yaw + Interval(move.yaw)};
     add_standing();
-
-    const HalfStep& rise = steps_[i - 1];
-    const HalfStep& sink = steps_[i];
-    const auto time = [](const HalfStep& of, const Interval& sigma) {
-      return of.start + sigma * of.duration;
-    };
-    const Interval moves = time(rise, rise.way.span().first);
-    flights_.push_back({swing, time(rise, rise.height.span().first).lo,
-                        time(sink, sink.height.span().second).hi, std::min(moves.lo, sink.start.lo),
-                        std::max(time(sink, sink.way.span().second).hi, rise.end.hi)});
+    WalkMotion::Flight& flight = flights_.back();
+    flight.end = time(now.height.span().second).hi;
+    flight.moves_from = std::min(flight.moves_from, start.lo);
+    flight.moves_to = std::max(time(now.way.span().second).hi, flight.moves_to);
+    flight.landing = footstep.z;
+    flight.lands = true;
   }
   knots_ = {0.0, end()};
   for (const HalfStep& step : steps_) {
-    for (const Profile* profile : {&step.yaw, &step.way, &step.height}) {
+    for (const Profile* profile : {&step.yaw, &step.way, &step.height, &step.rise}) {
       for (const Interval& sigma : {profile->span().first, profile->span().second}) {
         knots_.push_back((step.start + sigma * step.duration).Middle());
       }
@@ -175,6 +202,7 @@ WalkNumbers WalkMotion::On(double from, double to) const {
       add(kSole + 4 * step.swing + k, way);
     }
     add(kYaw, curve(of(step.yaw)));
+    add(kWaistZ, curve(of(step.rise)));
     add(kSole + 4 * step.swing + 2, curve(of(step.height)));
     add(kSole + 4 * step.swing + 3, way);
   }

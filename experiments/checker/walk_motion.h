@@ -9,18 +9,29 @@
 
 namespace halfstep::checker {
 
-/// What the tables of a run say of a walk on a level floor.
+/// What the tables of a run say of a walk.
 struct WalkTables {
   std::vector<verify::FootstepRow> footsteps;   ///< both feet at the start, then those of the steps
-  std::vector<verify::HalfStepRow> half_steps;  ///< two for each footstep
+  std::vector<verify::HalfStepRow> half_steps;  ///< two for each footstep, perhaps but for the last
   std::vector<Interval> starts;                 ///< t_i of each [s]; their rows' are not read
   verify::FormColumns planned;                  ///< form of half-steps whose row has none
   Interval com_height;                          ///< z_c of the pendulum [m]
+
+  /// Those of the walk that is cut after half-step `last`, counted from 0: nothing else begins.
+  WalkTables CutAfter(size_t last) const;
 };
 
 /// Where the numbers of a walk stand: CoM x, y and ZMP x, y [m], the waist's yaw [rad], and of each
-/// sole by Index(Side) x, y, z [m] and yaw [rad], in W.
-enum WalkNumber : size_t { kCom = 0, kZmp = 2, kYaw = 4, kSole = 5, kNumWalkNumbers = 13 };
+/// sole by Index(Side) x, y, z [m] and yaw [rad], in W; how much higher the waist is than where it
+/// stands over soles at z = 0 [m].
+enum WalkNumber : size_t {
+  kCom = 0,
+  kZmp = 2,
+  kYaw = 4,
+  kSole = 5,
+  kWaistZ = 13,
+  kNumWalkNumbers = 14
+};
 using WalkNumbers = std::array<Curve, kNumWalkNumbers>;  ///< as functions of time
 
 /// The walk's motion, f(t) = f_0(0) + Σ_i [f_i(clamp(t − t_i, 0, T_i)) − f_i(0)].
@@ -32,6 +43,8 @@ class WalkMotion {
     size_t side = 0;                          ///< Index(Side)
     double begin = 0.0, end = 0.0;            ///< closed
     double moves_from = 0.0, moves_to = 0.0;  ///< the foot may move horizontally between
+    double landing = 0.0;                     ///< z of the sole after it [m]
+    bool lands = true;  ///< else the walk ends with the foot in the air, as if over where it was
   };
 
   /// Throws InputError for tables that are of no walk.
@@ -53,7 +66,7 @@ class WalkMotion {
   struct HalfStep {
     Interval start, duration, end, shift;
     size_t swing = 0;
-    Profile yaw, way, height;
+    Profile yaw, way, height, rise;
     Pendulum pendulum;
   };
 

@@ -2,11 +2,16 @@
 
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <optional>
 
+#include "experiments/checker/check_walk.h"
 #include "experiments/config/experiment.h"
+#include "experiments/verify/config_plan.h"
 #include "experiments/verify/csv_text.h"
+#include "experiments/verify/episode_text.h"
 #include "experiments/verify/found_inputs.h"
+#include "experiments/verify/robot_numbers.h"
 #include "experiments/verify/run_manifest.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/suggestion.h"
@@ -41,15 +46,30 @@ std::vector<Interval> StartsOf(const std::vector<verify::HalfStepRow>& rows,
 
 }  // namespace
 
+std::vector<std::string> SentencesOf(const std::vector<verify::NotCoveredItem>& not_covered) {
+  std::vector<std::string> sentences;
+  for (const verify::NotCoveredItem& item : not_covered) {
+    if (item.kind != "pair") sentences.push_back(item.sentence);
+  }
+  if (const size_t pairs = not_covered.size() - sentences.size(); pairs > 0) {
+    sentences.push_back(Formatted("%zu pairs of bodies that the files list as not watched", pairs));
+  }
+  return sentences;
+}
+
 std::vector<std::string> CertifiedMethods(const std::string& run,
                                           const std::optional<std::string>& method) {
   const fs::path manifest = fs::path(run) / "manifest.json";
   if (!fs::is_regular_file(manifest)) {
     throw InputError({run + ": no such run folder (valid: one that `halfstep run` wrote)"});
   }
+  const std::string text = ReadBytes(manifest.string());
+  if (verify::IsOfEpisode(manifest.string(), text)) {
+    if (method) throw InputError({"--method: is of runs (valid: none, for an episode)"});
+    return {""};
+  }
   std::vector<std::string> folders, known;
-  for (const auto& of :
-       verify::ReadManifest(manifest.string(), ReadBytes(manifest.string())).methods) {
+  for (const auto& of : verify::ReadManifest(manifest.string(), text).methods) {
     const std::string folder = verify::FolderOfMethod(of.name);
     const fs::path certificate = fs::path(run) / folder / "certificate.json";
     if (!fs::is_regular_file(certificate)) continue;
@@ -69,6 +89,7 @@ WalkRun ReadWalkRun(const std::string& run, const std::string& method,
                     const std::string& robot_file, const std::string& scene_file) {
   const fs::path root(run), folder = root / method;
   const auto path = [](const fs::path& in, const char* name) { return (in / name).string(); };
+  if (method.empty()) return ReadEpisodeRun(run, robot_file, scene_file);
   WalkRun walk;
   const auto read = [&](const auto& reader, const fs::path& in, const char* name) {
     const std::string text = ReadBytes(path(in, name));
@@ -78,18 +99,13 @@ WalkRun ReadWalkRun(const std::string& run, const std::string& method,
   walk.certificate = read(verify::ReadCertificateJson, folder, "certificate.json");
   const verify::RunManifest manifest = read(verify::ReadManifest, root, "manifest.json");
   const ExperimentConfig config = LoadConfig(path(root, "config.yaml"), {});
-  walk.robot = verify::FindRobot({"robot",
-                                  root,
-                                  {robot_file, RobotPath(config), root / walk.certificate.robot},
-                                  manifest.robot_sha256})
-                   .input;
-  for (Leg& leg : walk.robot.legs) {
-    for (LegJoint& joint : leg.joints) {
-      if (std::isinf(joint.max_acceleration) && walk.certificate.joint_acceleration) {
-        joint.max_acceleration = *walk.certificate.joint_acceleration;
-      }
-    }
-  }
+  RobotModel robot =
+      verify::FindRobot({"robot",
+                         root,
+                         {robot_file, RobotPath(config), root / walk.certificate.robot},
+                         manifest.robot_sha256})
+          .input;
+  walk.robot = verify::WithAccelerations(std::move(robot), walk.certificate.joint_acceleration);
   if (const auto scene = ScenePath(config)) {
     walk.scene = verify::FindScene({"scene",
                                     root,
@@ -106,12 +122,7 @@ WalkRun ReadWalkRun(const std::string& run, const std::string& method,
   const HalfStepConfig& form = config.half_step;
   walk.crouch = form.crouch;
   walk.tables.com_height = Interval(walk.robot.com_height) - Interval(walk.crouch);
-  walk.tables.planned = {.via_lateral = form.via_lateral,
-                         .foot_ramp = form.foot_ramp,
-                         .foot_delay = form.foot_delay,
-                         .lift_share = form.lift_share,
-                         .zmp_shift = form.zmp_shift / form.duration,
-                         .zmp_bump_ramp = form.zmp_bump_ramp.value_or(1.0)};
+  walk.tables.planned = verify::HalfStepOf(form).form;
   std::optional<std::vector<verify::OverlapRow>> overlaps;
   if (fs::exists(folder / "overlaps.csv")) {
     overlaps = read(verify::ReadOverlaps, folder, "overlaps.csv");
@@ -119,22 +130,51 @@ WalkRun ReadWalkRun(const std::string& run, const std::string& method,
     for (const verify::OverlapRow& row : *overlaps) walk.overlaps->push_back(row.overlap);
   }
   walk.tables.starts = StartsOf(walk.tables.half_steps, overlaps, path(folder, "half_steps.csv"));
-  if (config.smoothing.stop_branches != "none") {
-    walk.not_covered.push_back("stop branches, which config.yaml demands");
+  const std::string& branches = config.smoothing.stop_branches;
+  for (size_t k = 0; branches != "none" && k + 1 < walk.tables.starts.size(); ++k) {
+    if (branches == "down" && k % 2 == 0) continue;
+    walk.branches.push_back(
+        {Formatted("stopped after half-step %zu", k + 1), k, walk.tables.starts[k + 1].lo});
   }
-  const auto count = [&](const char* kind) {
-    return std::ranges::count(walk.certificate.not_covered, kind, &verify::NotCoveredItem::kind);
-  };
-  for (const verify::NotCoveredItem& item : walk.certificate.not_covered) {
-    if (item.kind != "pair") walk.not_covered.push_back(item.sentence);
-  }
-  if (const auto pairs = count("pair"); pairs > 0) {
-    walk.not_covered.push_back(
-        Formatted("%td pairs of bodies that certificate.json lists as not watched", pairs));
-  }
+  walk.not_covered = SentencesOf(walk.certificate.not_covered);
   walk.not_covered.push_back(
       "whether the files of the run belong together, and trajectory.csv (`halfstep verify`)");
   return walk;
+}
+
+TrajectoryCheck CheckRun(const WalkRun& run, const std::function<bool(double done)>& progress,
+                         ProofHints* hints) {
+  TrajectoryCheck all;
+  std::map<std::pair<TrajectoryFinding::Kind, std::string>, TrajectoryFinding> worst;
+  const double parts = static_cast<double>(run.branches.size() + (run.whole ? 1 : 0));
+  double done = 0.0;
+  const auto add = [&](const WalkTables& tables, const StopBranch& of, ProofHints* with) {
+    TrajectoryCheck part = CheckWalk(
+        tables, run.robot, of.world ? *of.world : run.scene, run.certificate, run.crouch,
+        [&](double share) { return !progress || progress((done + share) / parts); }, with, of.from);
+    for (const TrajectoryFinding& finding : part.findings) {
+      const auto [at, is_new] = worst.try_emplace({finding.kind, finding.subject});
+      TrajectoryFinding& kept = at->second;
+      const bool less = finding.least - finding.demanded < kept.least - kept.demanded;
+      if (!is_new && !(kept.proved && (!finding.proved || less))) continue;
+      kept = finding;
+      if (!finding.proved && !of.name.empty()) kept.subject += ", " + of.name;
+    }
+    for (std::string& line : part.not_covered) {
+      if (std::ranges::count(all.not_covered, line) == 0) all.not_covered.push_back(line);
+    }
+    all.intervals += part.intervals;
+    all.stopped = part.stopped;
+    done += 1.0;
+  };
+  if (run.whole) add(run.tables, {}, hints);
+  for (size_t i = 0; i < run.branches.size() && !all.stopped; ++i) {
+    add(run.tables.CutAfter(run.branches[i].last), run.branches[i], nullptr);
+  }
+  for (auto& [key, finding] : worst) all.findings.push_back(std::move(finding));
+  all.not_covered.insert(all.not_covered.end(), run.not_covered.begin(), run.not_covered.end());
+  all.Sort();
+  return all;
 }
 
 }  // namespace halfstep::checker

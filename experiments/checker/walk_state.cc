@@ -21,18 +21,14 @@ FrameIn<Curve> Upright(const Curve& x, const Curve& y, const Curve& z, const Cur
 VectorIn<Rate> Second(const VectorIn<Curve>& x) {
   return {x[0].Derivative<2, 1>(), x[1].Derivative<2, 1>(), x[2].Derivative<2, 1>()};
 }
-VectorIn<Rate> First(const VectorIn<Curve>& x) {
-  return {x[0].Derivative<0, 1>(), x[1].Derivative<0, 1>(), x[2].Derivative<0, 1>()};
-}
 
-using Corner = std::array<Interval, 2>;
-
-// The hull's corners in doubles, counter-clockwise (Andrew's chains). They go along a direction that
-// sides of soles are hardly ever across: corners that are equally far along it, up to rounding, may
-// come in a wrong order, and the way around is not the hull's.
-std::vector<size_t> HullHint(const std::vector<Corner>& corners) {
+// The hull's corners in doubles, counter-clockwise (Andrew's chains). They go along a direction
+// that sides of soles are hardly ever across: corners that are equally far along it, up to
+// rounding, may come in a wrong order, and the way around is not the hull's.
+template <int N>
+std::vector<size_t> HullHint(const std::vector<Seen<N>>& corners) {
   const auto at = [&](size_t i) {
-    return Eigen::Vector2d(corners[i][0].Middle(), corners[i][1].Middle());
+    return Eigen::Vector2d(corners[i][0].at[0].Middle(), corners[i][1].at[0].Middle());
   };
   std::vector<size_t> order(corners.size()), hull;
   std::iota(order.begin(), order.end(), size_t{0});
@@ -74,10 +70,12 @@ WalkState::WalkState(const RobotModel& robot, const std::array<LegSolver, 2>& so
     const size_t sole = kSole + 4 * side;
     // A foot that stands has one place.
     for (size_t k = sole; Stands(side) && k < sole + 4; ++k) numbers_[k] = numbers_[k].at[0];
-    carried_[side] = solvers[side].Carried(
-        Upright(numbers_[sole], numbers_[sole + 1], numbers_[sole + 2], numbers_[sole + 3]));
+    soles_[side] =
+        Upright(numbers_[sole], numbers_[sole + 1], numbers_[sole + 2], numbers_[sole + 3]);
+    carried_[side] = solvers[side].Carried(soles_[side]);
   }
-  X_WB_ = Upright(numbers_[kCom], numbers_[kCom + 1], waist_height, numbers_[kYaw]);
+  X_WB_ = Upright(numbers_[kCom], numbers_[kCom + 1], Curve(waist_height) + numbers_[kWaistZ],
+                  numbers_[kYaw]);
   const double ahead = robot.com_x_B;
   X_WB_.p[0] = X_WB_.p[0] - ahead * X_WB_.R[0][0];
   X_WB_.p[1] = X_WB_.p[1] - ahead * X_WB_.R[1][0];
@@ -101,42 +99,66 @@ const Vector& WalkState::CenterOf(size_t body) {
   return *centers_[body];
 }
 
-SupportEdges WalkState::Support() const {
-  std::vector<Corner> corners;
+std::array<std::array<Interval, 2>, 4> WalkState::CornersOf(size_t side) const {
+  const Curve* const sole = &numbers_[kSole + 4 * side];
+  const auto [s, c] = SinCosOf(sole[3].at[0]);
+  std::array<std::array<Interval, 2>, 4> corners;
+  for (size_t i = 0; i < 4; ++i) {
+    const Interval x = (i == 0 || i == 3 ? 0.5 : -0.5) * robot_.sole_size.x();
+    const Interval y = (i < 2 ? 0.5 : -0.5) * robot_.sole_size.y();
+    corners[i] = {sole[0].at[0] + c * x - s * y, sole[1].at[0] + s * x + c * y};
+  }
+  return corners;
+}
+
+// With corners X of soles at h_X and the point P(h_X) in their planes, X − P(h_X) is where the
+// corner is seen. The way from one corner to another, d, moves only where their heights differ.
+template <int N>
+std::vector<SupportEdge<N>> WalkState::Support(const std::array<Seen<N>, 2>& points,
+                                               const Seen<N>& lean) const {
+  std::vector<std::array<Interval, 2>> corners;
+  std::vector<Seen<N>> seen;
+  std::vector<size_t> sides;
   for (size_t side = 0; side < 2; ++side) {
     if (!Stands(side)) continue;
-    const size_t sole = kSole + 4 * side;
-    const auto [s, c] = SinCosOf(numbers_[sole + 3].at[0]);
-    for (const auto& [ahead, aside] :
-         {std::array{0.5, 0.5}, {-0.5, 0.5}, {-0.5, -0.5}, {0.5, -0.5}}) {
-      const Interval x = ahead * robot_.sole_size.x(), y = aside * robot_.sole_size.y();
-      corners.push_back(
-          {numbers_[sole].at[0] + c * x - s * y, numbers_[sole + 1].at[0] + s * x + c * y});
+    for (const auto& [x, y] : CornersOf(side)) {
+      corners.push_back({x, y});
+      seen.push_back({Taylor<N>(x) - points[side][0], Taylor<N>(y) - points[side][1]});
+      sides.push_back(side);
     }
   }
-  const std::vector<size_t> hull = HullHint(corners);
-  SupportEdges support;
+  const std::vector<size_t> hull = HullHint(seen);
+  std::vector<SupportEdge<N>> edges;
   for (size_t i = 0; i < hull.size(); ++i) {
-    const Corner &a = corners[hull[i]], &b = corners[hull[(i + 1) % hull.size()]];
-    const Interval x = b[0] - a[0], y = b[1] - a[1], length = Sqrt(Square(x) + Square(y));
-    if (!(length.lo > 0.0)) throw NotDefined();
-    const std::array<Interval, 2> n = {-y / length, x / length};
-    support.edges.push_back({n, n[0] * a[0] + n[1] * a[1]});
+    const size_t a = hull[i], b = hull[(i + 1) % hull.size()];
+    Seen<N> d;
+    for (size_t k = 0; k < 2; ++k) {
+      d[k] = Taylor<N>(corners[b][k] - corners[a][k]);
+      if (sides[a] == sides[b]) continue;
+      d[k] = d[k] + (HeightOf(sides[a]) - HeightOf(sides[b])) * lean[k];
+    }
+    const Taylor<N> scale = Inverse(Sqrt(d[0] * d[0] + d[1] * d[1]));
+    SupportEdge<N> edge{{d[0] * scale, d[1] * scale}, {}};
+    edge.inside = seen[a][0] * edge.along[1] - seen[a][1] * edge.along[0];
+    edges.push_back(edge);
   }
-  return support;
+  return edges;
 }
+template std::vector<SupportEdge<1>> WalkState::Support(const std::array<Seen<1>, 2>&,
+                                                        const Seen<1>&) const;
+template std::vector<SupportEdge<3>> WalkState::Support(const std::array<Seen<3>, 2>&,
+                                                        const Seen<3>&) const;
 
 // ∫ x × (ẍ + gẑ) dm. Of x = r + ρ with ρ = R ξ, ∫ ρ ρ̈ᵀ dm = R Σ R̈ᵀ with Σ = ½tr(I)·1 − I.
 WalkState::Wrench WalkState::Push(const BodyMass& body, const FrameIn<Curve>& X_W,
-                                  const Eigen::Vector2d& reference) {
+                                  const Eigen::Vector3d& reference) {
   const VectorIn<Curve> center = X_W * VectorOf<Curve>(body.com);
   Wrench push;
   push.force = Second(center);
   push.force[2] = push.force[2] + Rate(kGravity);
   for (Rate& f : push.force) f = body.mass * f;
-  VectorIn<Rate> r = First(center);
-  r[0] = r[0] - Rate(reference.x());
-  r[1] = r[1] - Rate(reference.y());
+  VectorIn<Rate> r = FirstOf(center);
+  r = r - VectorOf<Rate>(reference);
   push.moment = Cross(r, push.force);
   const Eigen::Matrix3d& I = body.inertia;
   FrameIn<Rate> square;  // Σ
@@ -149,7 +171,7 @@ WalkState::Wrench WalkState::Push(const BodyMass& body, const FrameIn<Curve>& X_
     }
   }
   std::array<VectorIn<Rate>, 3> spread;  // rows of R Σ
-  for (size_t i = 0; i < 3; ++i) spread[i] = square.TurnedBack(First(X_W.R[i]));
+  for (size_t i = 0; i < 3; ++i) spread[i] = square.TurnedBack(FirstOf(X_W.R[i]));
   for (size_t i = 0; i < 3; ++i) {
     const size_t k = (i + 1) % 3, l = (i + 2) % 3;
     push.moment[i] =
@@ -162,7 +184,8 @@ const WalkState::Dynamics& WalkState::dynamics() {
   if (dynamics_) return *dynamics_;
   leg(0), leg(1);
   Dynamics all;
-  all.reference = {numbers_[kZmp].at[0].Middle(), numbers_[kZmp + 1].at[0].Middle()};
+  all.reference = {numbers_[kZmp].at[0].Middle(), numbers_[kZmp + 1].at[0].Middle(),
+                   HeightOf(Stands(0) ? 0 : 1).Middle()};
   all.floor = Push(robot_.masses.waist, X_WB_, all.reference);
   for (size_t side = 0; side < 2; ++side) {
     for (size_t i = 0; i < 6; ++i) {
@@ -175,6 +198,7 @@ const WalkState::Dynamics& WalkState::dynamics() {
   const Rate scale = Inverse(all.floor.force[2]);
   if (!(all.floor.force[2].over[0].lo > 0.0)) throw NotDefined();
   all.zmp = {-(all.floor.moment[1] * scale), all.floor.moment[0] * scale};
+  all.lean = {all.floor.force[0] * scale, all.floor.force[1] * scale};
   return dynamics_.emplace(all);
 }
 

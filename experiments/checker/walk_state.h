@@ -12,23 +12,23 @@ namespace halfstep::checker {
 
 using Rate = Taylor<1>;  ///< a function of time whose derivative is bounded
 
-/// A closed way around soles' corners, counter-clockwise as doubles see it. A point that lies to
-/// the left of every edge, by δ or more, is surrounded by it, and so is the disc of radius δ, which
-/// no edge meets: so it lies in the corners' convex hull, whether the way is the hull's or not.
-struct SupportEdges {
-  /// An edge's unit normal to the left, and n·x on it [m].
-  struct Edge {
-    std::array<Interval, 2> n;  ///< the normal
-    Interval at;                ///< n·x
-  };
-  std::vector<Edge> edges;  ///< in their order
+template <int N>
+using Seen = std::array<Taylor<N>, 2>;  ///< x and y of a point in motion [m]
 
-  /// How far to the left of an edge a point is [m].
-  template <int N>
-  Taylor<N> Left(const Edge& edge, const std::array<Taylor<N>, 2>& p) const {
-    return edge.n[0] * p[0] + edge.n[1] * p[1] - Taylor<N>(edge.at);
-  }
+/// An edge of a closed way around corners of the soles that stand, counter-clockwise as doubles see
+/// it. A point that lies to the left of every edge, by δ or more, is surrounded by the way, and so
+/// is the disc of radius δ, which no edge meets: so it lies in the corners' convex hull, whether
+/// the way is the hull's or not.
+template <int N>
+struct SupportEdge {
+  Seen<N> along;     ///< of length 1
+  Taylor<N> inside;  ///< how far to its left the point is [m]
 };
+
+/// Of a vector its first derivatives.
+inline VectorIn<Rate> FirstOf(const VectorIn<Curve>& x) {
+  return {x[0].Derivative<0, 1>(), x[1].Derivative<0, 1>(), x[2].Derivative<0, 1>()};
+}
 
 /// The robot's walk on an interval of time, in which the same soles stand.
 class WalkState {
@@ -42,12 +42,15 @@ class WalkState {
   struct Dynamics {
     std::array<std::array<Wrench, 6>, 2> links;  ///< of the legs by Index(Side)
     Wrench floor;                                ///< of all bodies
-    Eigen::Vector2d reference;                   ///< moments are about this point of the floor [m]
-    std::array<Rate, 2> zmp;                     ///< of the robot, seen from there [m]
+    Eigen::Vector3d reference;                   ///< moments are about this point [m]
+    Seen<1> zmp;                                 ///< of the robot in its plane, seen from there [m]
+    Seen<1> lean;                                ///< f_t/f_z: how far it moves per metre of height
 
-    /// The robot's ZMP in W [m].
-    std::array<Rate, 2> zmp_W() const {
-      return {zmp[0] + Rate(reference.x()), zmp[1] + Rate(reference.y())};
+    /// The robot's ZMP in the plane of a height, in W [m].
+    Seen<1> At(const Interval& z) const {
+      const Interval higher = z - Interval(reference.z());
+      return {zmp[0] + Rate(reference.x()) + higher * lean[0],
+              zmp[1] + Rate(reference.y()) + higher * lean[1]};
     }
   };
 
@@ -63,8 +66,18 @@ class WalkState {
   }                                          ///< a foot
   double h() const { return h_; }            ///< nothing is farther from the middle [s]
   double middle() const { return middle_; }  ///< [s]
-  SupportEdges Support() const;              ///< of the soles that stand
+  /// Of a point that is at points[i] in the plane of the sole with Index(Side) i, and goes `lean`
+  /// aside per metre of height: seen along that line all corners are in one plane.
+  template <int N>
+  std::vector<SupportEdge<N>> Support(const std::array<Seen<N>, 2>& points,
+                                      const Seen<N>& lean = {}) const;
+  /// Of a sole: its corners, seen from above, and its height [m]. Precondition: it stands.
+  std::array<std::array<Interval, 2>, 4> CornersOf(size_t side) const;
+  const Interval& HeightOf(size_t side) const { return numbers_[kSole + 4 * side + 2].at[0]; }
+  /// Whether both soles are at one height, to 10⁻¹⁰ m, as planner and margins count it.
+  bool AreLevel() const { return (HeightOf(0) - HeightOf(1)).Magnitude() < 1e-10; }
 
+  const FrameIn<Curve>& sole(size_t side) const { return soles_[side]; }  ///< its frame in W
   /// Stretched leg − hip–ankle distance [m].
   Curve reach(size_t side) const { return solvers_[side].Reach(X_WB_, carried_[side]); }
   /// Throw NotDefined where the legs may not reach.
@@ -78,7 +91,7 @@ class WalkState {
 
  private:
   static Wrench Push(const BodyMass& body, const FrameIn<Curve>& X_W,
-                     const Eigen::Vector2d& reference);
+                     const Eigen::Vector3d& reference);
 
   const RobotModel& robot_;
   const std::array<LegSolver, 2>& solvers_;
@@ -86,7 +99,7 @@ class WalkState {
   WalkNumbers numbers_;
   const WalkMotion::Flight* flight_ = nullptr;
   FrameIn<Curve> X_WB_;
-  std::array<FrameIn<Curve>, 2> carried_;
+  std::array<FrameIn<Curve>, 2> soles_, carried_;
   std::array<std::optional<LegPosture>, 2> legs_;
   std::vector<std::optional<Vector>> centers_;
   std::optional<Dynamics> dynamics_;

@@ -2,42 +2,29 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "experiments/checker/interval_proof.h"
+#include "experiments/checker/check_trajectory.h"
 #include "experiments/checker/separation.h"
 #include "wpg/nth.h"
+#include "wpg/robot/sole_outline.h"
 
 namespace halfstep::checker {
 namespace {
 
 using verify::Family;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr Kept kDoesNotCount = {kInfinity, kInfinity};
-constexpr double kOnFloor = 1e-8;  // soles are no lower, but for rounding [m]
+constexpr double kOnFloor = 1e-8;  // soles are no lower than what bears them, but for rounding [m]
 constexpr double kSinking = 0.01;  // height below which the limit of sinking is its own [m]
 
-Kept Least(const Kept& a, const Kept& b) {
-  return {std::min(a.bound, b.bound), std::min(a.value, b.value)};
-}
-// All of an interval, and about what its middle has.
-Kept Of(const Interval& over, const Interval& at) { return {over.lo, at.Middle()}; }
 template <int N>
 Kept Of(const Taylor<N>& margin) {
-  return Of(margin.over[0], margin.at[0]);
+  return Kept::Of(margin.over[0], margin.at[0]);
 }
-// limit − |x|.
-Kept Under(double limit, const Interval& over, const Interval& at) {
-  return {Beyond(limit, over.Magnitude()), limit - at.Magnitude()};
-}
-
 template <int N>
-Kept Inside(const SupportEdges& support, const std::array<Taylor<N>, 2>& p) {
+Kept Inside(const std::vector<SupportEdge<N>>& support) {
   Kept kept = kDoesNotCount;
-  for (const SupportEdges::Edge& edge : support.edges) {
-    kept = Least(kept, Of(support.Left(edge, p)));
-  }
+  for (const SupportEdge<N>& edge : support) kept = Least(kept, Of(edge.inside));
   return kept;
 }
 
@@ -103,6 +90,23 @@ double FarthestAway(const ObstacleMotion& motion, const WalkState& state) {
 
 }  // namespace
 
+Vector CenterAt(const FrameIn<Curve>& X_W, const ConvexBody& body) {
+  const VectorIn<Curve> center = X_W * VectorOf<Curve>(body.center);
+  return {center[0].over[0], center[1].over[0], center[2].over[0]};
+}
+
+ConvexBody PrismOver(const Eigen::Matrix2Xd& polygon, double bottom, double top) {
+  ConvexBody prism;
+  prism.vertices.resize(3, polygon.cols() * (bottom < top ? 2 : 1));
+  for (Eigen::Index i = 0; i < prism.vertices.cols(); ++i) {
+    prism.vertices.col(i) << polygon.col(i % polygon.cols()), i < polygon.cols() ? bottom : top;
+  }
+  prism.center << polygon.rowwise().mean(), 0.5 * (bottom + top);
+  prism.radius = (prism.vertices.colwise() - prism.center).colwise().norm().maxCoeff();
+  prism.radius *= 1.0 + 1e-12;
+  return prism;
+}
+
 // A body is seen from the other one, so that their common motion does not count.
 Kept WalkStatements::Apart(const Placed& a, const Placed& b, double demanded,
                            Eigen::Vector3d* direction, bool told) {
@@ -138,7 +142,12 @@ WalkStatements::WalkStatements(const RobotModel& robot, const Scene& scene,
     if (demanded == verify::kNotDemanded) return;
     all_.push_back({family, subject, demanded, a, b});
   };
-  add(verify::kFloor, "swing foot");
+  if (std::isfinite(scene.ground->Floor())) add(verify::kFloor, "swing foot");
+  const std::vector<GroundSolid>& solids = scene.ground->Solids();
+  const size_t num_obstacles = scene.obstacles.size();
+  for (size_t k = 0; k < solids.size(); ++k) {
+    add(verify::kFloor, "swing foot - " + solids[k].name, 1, num_obstacles + k);
+  }
   if (certificate.foot_speed) add(verify::kFootSpeed, "swing foot");
   if (certificate.foot_yaw_rate) add(verify::kFootYawRate, "swing foot");
   if (certificate.landing_speed) add(verify::kLandingSpeed, "swing foot");
@@ -159,12 +168,17 @@ WalkStatements::WalkStatements(const RobotModel& robot, const Scene& scene,
         static_cast<size_t>(a), static_cast<size_t>(b));
   }
   for (size_t i = 0; i < robot.bodies.size(); ++i) {
-    add(verify::kGround, robot.bodies[i].name, i);
-    for (size_t k = 0; k < scene.obstacles.size(); ++k) {
-      add(verify::kClearance, robot.bodies[i].name + " - " + scene.obstacles[k].name, i, k);
+    if (std::isfinite(scene.ground->Floor())) add(verify::kGround, robot.bodies[i].name, i);
+    for (size_t k = 0; k < num_obstacles + solids.size(); ++k) {
+      add(verify::kClearance, robot.bodies[i].name + " - " + scene.NameOf(static_cast<int>(k)), i,
+          k);
     }
   }
   for (const Obstacle& obstacle : scene.obstacles) obstacles_.push_back(BodyOfObstacle(obstacle));
+  for (const GroundSolid& solid : solids) {
+    obstacles_.push_back(PrismOver(solid.polygon, solid.bottom, solid.top));
+  }
+  if (!solids.empty()) foot_ = PrismOver(FootOutline(robot));
   add(verify::kZmpRobot, "robot");
   add(verify::kFriction, "soles");
 }
@@ -182,8 +196,10 @@ std::vector<double> WalkStatements::WaypointTimes() const {
 Kept WalkStatements::Look(WalkStatement* statement, WalkState* state) const {
   const WalkNumbers& x = state->numbers();
   switch (statement->family) {
-    case verify::kZmp:
-      return Inside<3>(state->Support(), {x[kZmp], x[kZmp + 1]});
+    case verify::kZmp: {
+      const Seen<3> zmp = {x[kZmp], x[kZmp + 1]};
+      return Inside<3>(state->Support<3>({zmp, zmp}));
+    }
     case verify::kReach:
       return Of(state->reach(statement->a));
     case verify::kJoint:
@@ -195,20 +211,20 @@ Kept WalkStatements::Look(WalkStatement* statement, WalkState* state) const {
     case verify::kGround:
       return OfBodies(statement, state);
     case verify::kZmpRobot: {
-      SupportEdges support = state->Support();
-      const WalkState::Dynamics& dynamics = state->dynamics();
-      return Inside<1>(support, dynamics.zmp_W());
+      const WalkState::Dynamics& all = state->dynamics();
+      return Inside<1>(
+          state->Support<1>({all.At(state->HeightOf(0)), all.At(state->HeightOf(1))}, all.lean));
     }
     case verify::kFriction:
       return Friction(state);
     case verify::kTorque:
       return Torque(*statement, state);
     default:
-      return OfSwingFoot(statement->family, *state);
+      return OfSwingFoot(statement, *state);
   }
 }
 
-Kept WalkStatements::OfSwingFoot(Family family, const WalkState& state) const {
+Kept WalkStatements::OfSwingFoot(WalkStatement* statement, const WalkState& state) const {
   const WalkMotion::Flight* const flight = state.flight();
   if (flight == nullptr) return kDoesNotCount;
   const Curve* const sole = &state.numbers()[kSole + 4 * flight->side];
@@ -216,21 +232,25 @@ Kept WalkStatements::OfSwingFoot(Family family, const WalkState& state) const {
   const auto speed = [&](auto part) {
     return Sqrt(Square(part(sole[0])) + Square(part(sole[1])) + Square(part(z)));
   };
-  switch (family) {
-    case verify::kFloor:
+  switch (statement->family) {
+    case verify::kFloor: {
       if (state.middle() < flight->moves_from || state.middle() > flight->moves_to) break;
-      return Of(z);
+      if (statement->a == 0) return Of(z - Curve(scene_.ground->Floor()));
+      const FrameIn<Curve>& X_WF = state.sole(flight->side);
+      return FromSolid(statement, {foot_, X_WF, CenterAt(X_WF, foot_)});
+    }
     case verify::kFootSpeed:
-      return Under(*certificate_.foot_speed, speed([](const Curve& x) { return x.over[1]; }),
-                   speed([](const Curve& x) { return x.at[1]; }));
+      return Kept::Under(*certificate_.foot_speed, speed([](const Curve& x) { return x.over[1]; }),
+                         speed([](const Curve& x) { return x.at[1]; }));
     case verify::kFootYawRate:
-      return Under(*certificate_.foot_yaw_rate, sole[3].over[1], sole[3].at[1]);
+      return Kept::Under(*certificate_.foot_yaw_rate, sole[3].over[1], sole[3].at[1]);
     case verify::kLandingSpeed: {
       // v·max(1, z/1 cm) is at least either.
       const Taylor<2> sinking = z.Derivative<1, 2>();
       const double v = *certificate_.landing_speed;
       const Kept low = Of(sinking + Taylor<2>(v));
-      const Kept high = Of(sinking + Interval(v) / Interval(kSinking) * z.Derivative<0, 2>());
+      const Taylor<2> above = z.Derivative<0, 2>() - Taylor<2>(flight->landing);
+      const Kept high = Of(sinking + Interval(v) / Interval(kSinking) * above);
       return {std::max(low.bound, high.bound), std::max(low.value, high.value)};
     }
     default:
@@ -243,24 +263,45 @@ Kept WalkStatements::OfJoint(const WalkStatement& statement, WalkState* state) c
   const LegJoint& joint = robot_.legs[statement.a].joints[statement.b];
   const Curve& q = state->leg(statement.a).q[statement.b];
   if (statement.family == verify::kJointSpeed) {
-    return Under((Interval(certificate_.joint_speed_scale) * Interval(joint.max_speed)).lo,
-                 q.over[1], q.at[1]);
+    return Kept::Under((Interval(certificate_.joint_speed_scale) * Interval(joint.max_speed)).lo,
+                       q.over[1], q.at[1]);
   }
   if (statement.family == verify::kJointAcceleration) {
-    return Under(joint.max_acceleration, q.over[2], q.at[2]);
+    return Kept::Under(joint.max_acceleration, q.over[2], q.at[2]);
   }
   const double at = q.at[0].Middle();
   return {std::min(Beyond(q.over[0].lo, joint.lower), Beyond(joint.upper, q.over[0].hi)),
           std::min(at - joint.lower, joint.upper - at)};
 }
 
+const GroundSolid* WalkStatements::SolidOf(const WalkStatement& statement) const {
+  const size_t first = scene_.obstacles.size();
+  const bool is = statement.family == verify::kClearance && statement.b >= first;
+  return is ? &scene_.ground->Solids()[statement.b - first] : nullptr;
+}
+
+Kept WalkStatements::FromSolid(WalkStatement* statement, const Placed& moving) const {
+  const ConvexBody& solid = obstacles_[statement->b];
+  return Apart({solid, FrameIn<Curve>(), VectorOf(solid.center)}, moving, statement->demanded,
+               &statement->direction, statement->told);
+}
+
 Kept WalkStatements::OfBodies(WalkStatement* statement, WalkState* state) const {
   const RobotBody& body = robot_.bodies[statement->a];
-  if (statement->family == verify::kGround && body.leg >= 0 && body.link == 5) {
-    // It reaches no lower than its sole (wpg/README.md, "Robots").
+  const GroundSolid* const solid = SolidOf(*statement);
+  bool below = false;
+  if (body.leg >= 0 && body.link == 5 && statement->family != verify::kSelfClearance) {
+    // It reaches no lower than its sole (wpg/README.md, "Robots"), whose plane separates it from
+    // what is below.
     const Curve& z = state->numbers()[kSole + 4 * static_cast<size_t>(body.leg) + 2];
-    const auto kept = [](double height) { return height >= -kOnFloor ? kInfinity : height; };
-    return {kept(z.over[0].lo), kept(z.at[0].Middle())};
+    const double floor = scene_.ground->Floor();
+    const auto kept = [&](double height) {
+      return height >= floor - kOnFloor ? kInfinity : height - floor;
+    };
+    if (statement->family == verify::kGround) return {kept(z.over[0].lo), kept(z.at[0].Middle())};
+    if (solid != nullptr && solid->top - kOnFloor <= z.over[0].lo) return kDoesNotCount;
+    // Where it is below in the middle, shorter intervals may tell.
+    below = solid != nullptr && solid->top - kOnFloor <= z.at[0].lo;
   }
   const auto placed = [&](size_t i) -> Placed {
     const RobotBody& of = robot_.bodies[i];
@@ -272,15 +313,18 @@ Kept WalkStatements::OfBodies(WalkStatement* statement, WalkState* state) const 
     return Apart(placed(statement->b), moving, statement->demanded, &statement->direction,
                  statement->told);
   }
+  if (solid != nullptr) {
+    const Kept kept = FromSolid(statement, moving);
+    return below ? Kept{kept.bound, kInfinity, kept.hint_missing} : kept;
+  }
   if (statement->family == verify::kClearance) {
     const Obstacle& obstacle = scene_.obstacles[statement->b];
     const ConvexBody& shape = obstacles_[statement->b];
     const FrameIn<Curve> X_WO = PlaceOf(obstacle, *state);
-    const VectorIn<Curve> middle = X_WO * VectorOf<Curve>(shape.center);
-    const Vector center = {middle[0].over[0], middle[1].over[0], middle[2].over[0]};
     const double away = FarthestAway(obstacle.motion, *state);
-    const Kept kept = Apart({shape, X_WO, center}, moving, Above(statement->demanded + away),
-                            &statement->direction, statement->told);
+    const Kept kept =
+        Apart({shape, X_WO, CenterAt(X_WO, shape)}, moving, Above(statement->demanded + away),
+              &statement->direction, statement->told);
     return {checker::Below(kept.bound - away), kept.value - away, kept.hint_missing};
   }
   const double lowest = (moving.center[2] - Interval(body.shape.radius)).lo;
@@ -289,106 +333,6 @@ Kept WalkStatements::OfBodies(WalkStatement* statement, WalkState* state) const 
   const Eigen::Vector3d down = about.linear().transpose() * -Eigen::Vector3d::UnitZ();
   return {LeastAlong(Eigen::Vector3d::UnitZ(), body.shape, Over(moving.X_W)),
           (about * SupportPoint(body.shape, down)).z()};
-}
-
-// Two points p ± ρu, each with half of the push, inside of the soles' hull: along u an edge, where
-// they may be farthest apart in the middle of the interval. With d the distance inside an edge
-// whose normal n has the part |n·u|, ρ is the least of d/|n·u|.
-Kept WalkStatements::Friction(WalkState* state) const {
-  const SupportEdges support = state->Support();
-  const WalkState::Dynamics& all = state->dynamics();
-  const std::array<Rate, 2> p = all.zmp_W();
-  const auto part = [](const SupportEdges::Edge& edge, const SupportEdges::Edge& along) {
-    return Interval((edge.n[0] * along.n[1] - edge.n[1] * along.n[0]).Magnitude());
-  };
-  const SupportEdges::Edge* best = nullptr;
-  double farthest = 0.0;
-  for (const SupportEdges::Edge& along : support.edges) {
-    double room = kInfinity;
-    for (const SupportEdges::Edge& edge : support.edges) {
-      room = std::min(room, support.Left(edge, p).at[0].Middle() / part(edge, along).hi);
-    }
-    if (room > farthest) farthest = room, best = &along;
-  }
-  if (best == nullptr) return {-kInfinity, -kInfinity};
-  const auto& [force, moment] = all.floor;
-  const Rate yaw = moment[2] - (all.zmp[0] * force[1] - all.zmp[1] * force[0]);
-  const Rate push = Inverse(force[2]);
-  const Rate square = force[0] * force[0] + force[1] * force[1];
-  // ‖f_t‖, which has no derivative at 0.
-  Interval side = Sqrt(square.over[0]), side_at = Sqrt(square.at[0]);
-  if (square.over[0].lo > 0.0) side = Sqrt(square).over[0];
-  Kept kept = kDoesNotCount;
-  for (const SupportEdges::Edge& edge : support.edges) {
-    const Rate inside = support.Left(edge, p);
-    if (!(inside.over[0].lo > 0.0)) throw NotDefined();
-    const Rate turning = part(edge, *best) * (yaw * Inverse(inside));
-    const Interval over = (side + Interval(turning.over[0].Magnitude())) * push.over[0];
-    const Interval at = (side_at + Interval(turning.at[0].Magnitude())) * push.at[0];
-    kept = Least(kept, Of(Interval(scene_.friction) - over, Interval(scene_.friction) - at));
-  }
-  return kept;
-}
-
-// τ = e·(Σ moments of the links that hang on the joint − that of the floor on the foot), about a
-// point of the axis. Where both soles stand the right foot carries λW + C and the left one
-// (1 − λ)W − C, with λ by the distances of the ZMP from both soles.
-Kept WalkStatements::Torque(const WalkStatement& statement, WalkState* state) const {
-  const size_t side = statement.a;
-  const LegJoint& joint = robot_.legs[side].joints[statement.b];
-  const WalkState::Dynamics& all = state->dynamics();
-  const FrameIn<Curve>& X_WLink = state->leg(side).X_WLink[statement.b];
-  const Eigen::Isometry3d X_LinkB = joint.X_BLink.inverse();
-  const Eigen::Vector3d point = robot_.legs[side].AxisPoint(statement.b);
-  const VectorIn<Curve> axis_W = X_WLink.Turned(VectorOf<Curve>(X_LinkB.linear() * joint.axis_B));
-  const VectorIn<Curve> point_W = X_WLink * VectorOf<Curve>(X_LinkB * point);
-  const auto rates = [](const VectorIn<Curve>& x) -> VectorIn<Rate> {
-    return {x[0].Derivative<0, 1>(), x[1].Derivative<0, 1>(), x[2].Derivative<0, 1>()};
-  };
-  const VectorIn<Rate> e = rates(axis_W);
-  VectorIn<Rate> r = rates(point_W);
-  r[0] = r[0] - Rate(all.reference.x());
-  r[1] = r[1] - Rate(all.reference.y());
-  const auto about = [&](const WalkState::Wrench& of) {
-    return Dot(e, of.moment - Cross(r, of.force));
-  };
-  Rate links = 0.0;
-  for (size_t j = statement.b; j < 6; ++j) links = links + about(all.links[side][j]);
-  const Rate floor = about(all.floor);
-  if (state->flight() != nullptr) {
-    const Rate torque = state->Stands(side) ? links - floor : links;
-    return Under(joint.max_torque, torque.over[0], torque.at[0]);
-  }
-  const auto shared = [&](const auto& of) {
-    const std::array<Rate, 2> p = all.zmp_W();
-    std::array<Interval, 2> away;
-    std::array<std::array<Interval, 2>, 2> center;
-    for (size_t s = 0; s < 2; ++s) {
-      const Curve* const sole = &state->numbers()[kSole + 4 * s];
-      center[s] = {sole[0].at[0], sole[1].at[0]};
-      const auto [sin, cos] = SinCosOf(sole[3].at[0]);
-      const Interval x = of(p[0]) - center[s][0], y = of(p[1]) - center[s][1];
-      const auto out = [](const Interval& along, double size) {
-        const Interval half = Interval(0.5) * Interval(size), past = along - half;
-        const Interval before = -along - half;
-        return Interval(std::max({0.0, past.lo, before.lo}), std::max({0.0, past.hi, before.hi}));
-      };
-      away[s] = Sqrt(Square(out(cos * x + sin * y, robot_.sole_size.x())) +
-                     Square(out(cos * y - sin * x, robot_.sole_size.y())));
-    }
-    const Interval sum = away[0] + away[1];
-    if (!(sum.lo > 0.0)) throw NotDefined();
-    const Interval of_right(std::max(0.0, (Interval(away[0].lo) / sum).lo),
-                            std::min(1.0, (Interval(away[0].hi) / sum).hi));
-    const Interval couple = of_right * (Interval(1.0) - of_right) * of(all.floor.force[2]);
-    // C = λ(1 − λ) f_z (c_R − c_L) × ẑ.
-    const Interval turn = couple * (of(e[0]) * (center[1][1] - center[0][1]) -
-                                    of(e[1]) * (center[1][0] - center[0][0]));
-    return of(links) - (side == 1 ? of_right * of(floor) + turn
-                                  : (Interval(1.0) - of_right) * of(floor) - turn);
-  };
-  return Under(joint.max_torque, shared([](const Rate& x) { return x.over[0]; }),
-               shared([](const Rate& x) { return x.at[0]; }));
 }
 
 }  // namespace halfstep::checker

@@ -1,20 +1,34 @@
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
-#include "experiments/checker/check_trajectory.h"
+#include "experiments/checker/interval_proof.h"
 #include "experiments/checker/walk_state.h"
 #include "experiments/verify/certificate_text.h"
 #include "planner/scene/scene.h"
 
 namespace halfstep::checker {
 
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();  ///< of margins
+
 /// What is kept of a margin on an interval of time.
 struct Kept {
   double bound = 0.0;         ///< at least that, at every instant
   double value = 0.0;         ///< about that in the middle
   bool hint_missing = false;  ///< no direction was told, which might show more
+
+  /// All of an interval, and about what its middle has.
+  static Kept Of(const Interval& over, const Interval& at) { return {over.lo, at.Middle()}; }
+  /// limit − |x|.
+  static Kept Under(double limit, const Interval& over, const Interval& at) {
+    return {Beyond(limit, over.Magnitude()), limit - at.Magnitude()};
+  }
+  /// The lesser of both.
+  friend Kept Least(const Kept& a, const Kept& b) {
+    return {std::min(a.bound, b.bound), std::min(a.value, b.value)};
+  }
 };
 
 /// One statement about a walk: of all instants, or where it counts.
@@ -22,11 +36,18 @@ struct WalkStatement {
   verify::Family family = verify::kFloor;  ///< by which margin
   std::string subject = {};                ///< whose
   double demanded = 0.0;                   ///< [unit of the family]
-  /// Side and joint; indices of a robot's bodies and of an obstacle; unused.
+  /// Side and joint; indices of a robot's bodies, of an obstacle, and of a solid of the ground
+  /// behind the obstacles; unused.
   size_t a = 0, b = 0;
   Eigen::Vector3d direction{0, 0, 0};  ///< along which two bodies were separated last; 0: none
   bool told = false;                   ///< whether by others, so that no other one is looked for
 };
+
+/// A convex polygon (2×n) as a flat body in the plane z = 0, or an upright prism.
+ConvexBody PrismOver(const Eigen::Matrix2Xd& polygon, double bottom = 0.0, double top = 0.0);
+
+/// Bounds of where the centre of a body's bounding sphere is at any instant.
+Vector CenterAt(const FrameIn<Curve>& X_W, const ConvexBody& body);
 
 /// Statements of a robot among obstacles, and how to look at them.
 class WalkStatements {
@@ -51,7 +72,10 @@ class WalkStatements {
                     bool told);
 
  private:
-  Kept OfSwingFoot(verify::Family family, const WalkState& state) const;
+  Kept OfSwingFoot(WalkStatement* statement, const WalkState& state) const;
+  // The solid of the ground that a clearance is from, or null.
+  const GroundSolid* SolidOf(const WalkStatement& statement) const;
+  Kept FromSolid(WalkStatement* statement, const Placed& moving) const;
   Kept OfJoint(const WalkStatement& statement, WalkState* state) const;
   Kept OfBodies(WalkStatement* statement, WalkState* state) const;
   Kept Friction(WalkState* state) const;
@@ -60,7 +84,8 @@ class WalkStatements {
   const RobotModel& robot_;
   const Scene& scene_;
   const verify::CertificateText& certificate_;
-  std::vector<ConvexBody> obstacles_;
+  std::vector<ConvexBody> obstacles_;  ///< and the solids of the ground
+  ConvexBody foot_;                    ///< seen from above, in its sole's plane
   std::vector<WalkStatement> all_;
 };
 

@@ -6,7 +6,6 @@
 
 #include "experiments/checker/check_place.h"
 #include "experiments/checker/check_report.h"
-#include "experiments/checker/check_walk.h"
 #include "experiments/checker/proof_file.h"
 #include "experiments/checker/walk_run.h"
 #include "experiments/commands/command_line.h"
@@ -47,11 +46,12 @@ checker::TrajectoryCheck CheckOne(const CheckCommand& command, const std::string
                                   const checker::WalkRun& walk, checker::ProofHints* hints) {
   const std::string& from = command.trajectory;
   InterruptGuard interrupt;
-  std::optional<ProgressBar> bar(std::in_place, "check " + method, command.quiet);
+  std::optional<ProgressBar> bar(std::in_place, "check " + (method.empty() ? "episode" : method),
+                                 command.quiet);
   checker::TrajectoryCheck check;
   try {
-    check = checker::CheckWalk(
-        walk.tables, walk.robot, walk.scene, walk.certificate, walk.crouch,
+    check = checker::CheckRun(
+        walk,
         [&](double done) {
           bar->Update(done);
           return !interrupt.token().stop_requested();
@@ -63,14 +63,13 @@ checker::TrajectoryCheck CheckOne(const CheckCommand& command, const std::string
     throw InputError(told);
   }
   bar.reset();
-  check.not_covered.insert(check.not_covered.end(), walk.not_covered.begin(),
-                           walk.not_covered.end());
   if (!command.json && !command.quiet) {
-    const bool empty = walk.scene.obstacles.empty() && walk.scene.no_step.empty();
-    const std::string title =
-        Formatted("%s, %s: %zu half-steps of %s in %s", from.c_str(), method.c_str(),
-                  walk.tables.half_steps.size(), walk.robot.name.c_str(),
-                  empty ? "an empty room" : walk.scene.name.c_str());
+    const bool empty = walk.scene.obstacles.empty() && walk.scene.no_step.empty() &&
+                       walk.scene.ground->OnlyLevel();
+    std::string title = from + (method.empty() ? "" : ", " + method) +
+                        Formatted(": %zu half-steps of ", walk.tables.half_steps.size()) +
+                        walk.robot.name + " in " + (empty ? "an empty room" : walk.scene.name);
+    if (!walk.branches.empty()) title += Formatted(", %zu stop branches", walk.branches.size());
     std::cout << checker::CheckScreen(title, check)
               << Formatted("\n%td intervals of time\n\n", check.intervals);
   }
@@ -87,6 +86,9 @@ ExitStatus CheckWalks(const CheckCommand& command, const std::string& proof_file
     throw InputError({"--proof: is of one walk (valid with --method: " + Joined(methods) + ")"});
   }
   for (const std::string& method : methods) {
+    if (!proof_file.empty() && method.empty()) {
+      throw InputError({"--proof: is of runs (valid: the folder of a run)"});
+    }
     checker::ProofFile proof;
     proof.walk = checker::ReadWalkRun(run, method, command.robot, command.scene);
     proof.run = fs::path(run).lexically_normal().filename().string();
@@ -95,7 +97,11 @@ ExitStatus CheckWalks(const CheckCommand& command, const std::string& proof_file
     if (check.stopped) return kInterrupted;
     proved = proved && check.proved();
     if (!proof_file.empty() && proved) {
-      WriteWhole(proof_file, {checker::ProofText(proof, check.not_covered)});
+      std::vector<std::string> not_covered = check.not_covered;
+      if (!proof.walk.branches.empty()) {
+        not_covered.emplace_back("stop branches, which config.yaml demands");
+      }
+      WriteWhole(proof_file, {checker::ProofText(proof, not_covered)});
     }
     checks.emplace_back(method, std::move(check));
   }
@@ -164,8 +170,8 @@ CommandAction DeclareCheck(CLI::App* app, const Toolbox&) {
   const auto texts = std::make_shared<Texts>();
   app->add_option("TRAJECTORY", command->trajectory,
                   "joint trajectory: .csv, or trajectory_msgs/JointTrajectory in .yaml; or the "
-                  "folder of a run, of whose walks is proved what their certificates demand; or "
-                  "the file that --proof wrote of such a walk")
+                  "folder of a run or an episode, of whose walks is proved what is demanded of "
+                  "them; or the file that --proof wrote of such a walk")
       ->required();
   app->add_option("--method", command->method,
                   "of a run: its method (default: all that are certified)");

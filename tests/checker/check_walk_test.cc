@@ -15,6 +15,7 @@
 #include "tests/experiments/child_process.h"
 #include "tests/refusal_of.h"
 #include "tests/temporary_folder.h"
+#include "tests/verify/tampered_episode.h"
 
 namespace halfstep::checker {
 namespace {
@@ -24,16 +25,15 @@ using Kind = TrajectoryFinding::Kind;
 
 // A run by the dichotomy.
 struct MadeRun {
-  explicit MadeRun(const std::string& config, const std::string& scene = "") {
+  explicit MadeRun(const std::string& config, const std::string& scene = "",
+                   const std::string& smoothing = "") {
     WriteText(place / "scene.yaml", scene);
-    WriteText(place / "config.yaml", config + "smoothing: {methods: [dichotomy]}\n");
+    WriteText(place / "config.yaml", config + "smoothing:\n  methods: [dichotomy]\n" + smoothing);
     const Outcome made = Halfstep(place.path(), {"run", "config.yaml", "--out", "made", "--quiet"});
     if (made.status != kSuccess) throw std::runtime_error(made.err);
     walk = ReadWalkRun((place / "made").string(), "dichotomy");
   }
-  TrajectoryCheck Check() const {
-    return CheckWalk(walk.tables, walk.robot, walk.scene, walk.certificate, walk.crouch);
-  }
+  TrajectoryCheck Check() const { return CheckRun(walk); }
 
   TemporaryFolder place;
   WalkRun walk;
@@ -68,6 +68,28 @@ footsteps:
   return run;
 }
 
+// Up onto a tread, one foot after the other, and over another one of its height beside a gap of 1
+// nm.
+constexpr char kTreads[] = R"(surfaces:
+  - name: tread
+    polygon_m: [[0.14, -1], [0.3, -1], [0.3, 1], [0.14, 1]]
+    height_m: 0.08
+  - name: more
+    polygon_m: [[0.300000001, -1], [0.6, -1], [0.6, 1], [0.300000001, 1]]
+    height_m: 0.08
+)";
+const MadeRun& Stairs() {
+  static const MadeRun run(R"(robot: hrp2
+scene: scene.yaml
+footsteps:
+  - {foot: right, x_m: 0.28, y_m: -0.085}
+  - {foot: left, x_m: 0.28, y_m: 0.085}
+half_step: {duration_s: 2, via_height_m: 0.18, foot_delay: 0.15, crouch_m: 0.01}
+)",
+                           kTreads);
+  return run;
+}
+
 // A walk at instants and on intervals.
 struct Moving {
   explicit Moving(const WalkRun& of)
@@ -75,7 +97,8 @@ struct Moving {
         motion(of.tables),
         solvers{LegSolver(of.robot.legs[0]), LegSolver(of.robot.legs[1])} {}
   WalkState On(double from, double to) const {
-    return {walk.robot, solvers, motion, Interval(walk.robot.waist_height), from, to};
+    return {walk.robot, solvers, motion, Interval(walk.robot.waist_height) - Interval(walk.crouch),
+            from,       to};
   }
 
   const WalkRun& walk;
@@ -97,7 +120,7 @@ std::vector<const TrajectoryFinding*> Missed(const TrajectoryCheck& check) {
 }
 
 TEST(CheckWalk, CertifiedWalksAreProved) {
-  for (const MadeRun* run : {&Box(), &Wren()}) {
+  for (const MadeRun* run : {&Box(), &Wren(), &Stairs()}) {
     const TrajectoryCheck check = run->Check();
     EXPECT_TRUE(check.proved()) << (Missed(check).empty() ? "" : Missed(check)[0]->subject);
     EXPECT_LT(check.intervals, 2000);
@@ -109,6 +132,7 @@ TEST(CheckWalk, CertifiedWalksAreProved) {
     EXPECT_EQ(count(Kind::kSelfClearance), stated[verify::kSelfClearance]);
     EXPECT_EQ(count(Kind::kLimits), stated[verify::kJoint]);
     EXPECT_EQ(count(Kind::kGround), stated[verify::kGround]);
+    EXPECT_EQ(count(Kind::kFoothold), run == &Stairs() ? 4 : 0);
     EXPECT_EQ(count(Kind::kZmpRobot), 1);
     EXPECT_EQ(count(Kind::kTorque), run == &Wren() ? 12 : 0);
   }
@@ -178,7 +202,7 @@ class Rows {
 };
 
 TEST(CheckWalk, MotionIsThatOfTheTrajectory) {
-  for (const MadeRun* run : {&Box(), &Wren()}) {
+  for (const MadeRun* run : {&Box(), &Wren(), &Stairs()}) {
     const Moving moving(run->walk);
     const Rows rows(*run);
     for (size_t i = 0; i < rows.size(); i += 7) {
@@ -193,6 +217,8 @@ TEST(CheckWalk, MotionIsThatOfTheTrajectory) {
       expect(x[kCom + 1].at[2], "com_ay_m_s2");
       expect(x[kZmp + 1].over[0], "zmp_y_m");
       expect(x[kYaw].over[0], "waist_yaw_rad");
+      EXPECT_NEAR(x[kWaistZ].over[0].Middle() + run->walk.robot.waist_height - run->walk.crouch,
+                  rows.At(i, "waist_z_m"), 1e-9);
       for (size_t side = 0; side < 2; ++side) {
         const std::string foot = side == 0 ? "left_foot_" : "right_foot_";
         expect(x[kSole + 4 * side].over[0], foot + "x_m");
@@ -218,7 +244,7 @@ TEST(CheckWalk, MarginsAtInstantsAreThoseOfTheTrajectory) {
       {verify::kZmpRobot, "zmp_robot_margin_m"},
       {verify::kTorque, "torque_margin_n_m"},
       {verify::kFriction, "friction_margin"}};
-  for (const MadeRun* run : {&Box(), &Wren()}) {
+  for (const MadeRun* run : {&Box(), &Wren(), &Stairs()}) {
     const Moving moving(run->walk);
     verify::CertificateText certificate = run->walk.certificate;
     for (double& demanded : certificate.demanded) {
@@ -249,7 +275,7 @@ TEST(CheckWalk, MarginsAtInstantsAreThoseOfTheTrajectory) {
 
 TEST(CheckWalk, IntervalsHoldWhatIsWithin) {
   std::mt19937_64 random(3);
-  for (const MadeRun* run : {&Box(), &Wren()}) {
+  for (const MadeRun* run : {&Box(), &Wren(), &Stairs()}) {
     const Moving moving(run->walk);
     const std::vector<double>& knots = moving.motion.knots();
     for (int i = 0; i < 60; ++i) {
@@ -282,7 +308,8 @@ TEST(CheckWalk, IntervalsHoldWhatIsWithin) {
             }
           }
         }
-        const auto zmp = wide.dynamics().zmp_W(), there = at.dynamics().zmp_W();
+        const Interval z = wide.HeightOf(wide.Stands(0) ? 0 : 1);
+        const Seen<1> zmp = wide.dynamics().At(z), there = at.dynamics().At(z);
         for (size_t k = 0; k < 2; ++k) EXPECT_TRUE(Holds(zmp[k].over[0], there[k].at[0]));
       }
     }
@@ -370,15 +397,64 @@ TEST(CheckWalk, NudgedWalksAreNotProved) {
   EXPECT_EQ(missed(walk), "half-step 1; half-step 2; ");
 }
 
+// The ground is moved under a walk that was certified on it.
+TEST(CheckWalk, WalksOverOtherGroundAreNotProved) {
+  struct Ground {
+    const char *was, *is;
+    const char* missed;  // of what is not proved
+  };
+  for (const auto& [was, is, missed] :
+       {Ground{"", "", ""}, Ground{"[0.300000001, -1]", "[0.300000004, -1]", "sole at"},
+        Ground{"[0.300000001, -1]", "[0.299, -1]", ""},
+        Ground{"[0.6, -1], [0.6, 1]", "[0.39, -1], [0.39, 1]", "sole at"},
+        Ground{"0.14, -1", "0.135, -1", "LINK"},
+        Ground{"height_m: 0.08", "height_m: 0.081", "LINK"},
+        Ground{"height_m: 0.08", "height_m: 0.079", "sole at"}}) {
+    std::string text = kTreads;
+    for (size_t at = 0; was[0] != 0 && (at = text.find(was, at)) != std::string::npos; ++at) {
+      text.replace(at, std::string(was).size(), is);
+    }
+    WalkRun walk = Stairs().walk;
+    walk.scene = ParseScene("scene.yaml", text);
+    const TrajectoryCheck check = CheckRun(walk);
+    std::string told;
+    for (const TrajectoryFinding* finding : Missed(check)) told += finding->subject + "; ";
+    EXPECT_THAT(told, HasSubstr(missed)) << was << " → " << is;
+    EXPECT_EQ(told.empty(), missed[0] == 0) << was << " → " << is << ": " << told;
+  }
+}
+
+TEST(CheckWalk, StopBranchesAreProved) {
+  const MadeRun run(R"(robot: hrp2
+scene: )" HALFSTEP_SOURCE_DIR R"(/experiments/scenes/box.yaml
+footsteps:
+  - {foot: right, x_m: 0.274, y_m: -0.105}
+half_step: {foot_delay: 0.19}
+)",
+                    "", "  stop_branches: all\n");
+  ASSERT_EQ(run.walk.branches.size(), 1u);
+  const TrajectoryCheck check = run.Check();
+  EXPECT_TRUE(check.proved()) << (Missed(check).empty() ? "" : Missed(check)[0]->subject);
+  EXPECT_GT(check.intervals, Box().Check().intervals);
+}
+
+TEST(CheckEpisode, WhatBeganIsProved) {
+  const TamperedEpisode episode;
+  const std::string folder = episode.folder().string();
+  ASSERT_EQ(CertifiedMethods(folder, std::nullopt), std::vector<std::string>{""});
+  WalkRun run = ReadWalkRun(folder, "");
+  ASSERT_GE(run.branches.size(), 2u);
+  const TrajectoryCheck check = CheckRun(run);
+  EXPECT_TRUE(check.proved()) << (Missed(check).empty() ? "" : Missed(check)[0]->subject);
+  EXPECT_FALSE(check.findings.empty());
+}
+
 TEST(CheckWalk, WhatItDoesNotKnowIsRefused) {
   const auto refused = [](const WalkRun& walk) {
     return RefusalOf(
         [&] { CheckWalk(walk.tables, walk.robot, walk.scene, walk.certificate, walk.crouch); });
   };
   WalkRun walk = Box().walk;
-  walk.scene.ground = std::make_shared<const FlatGround>(0.1);
-  EXPECT_THAT(refused(walk), HasSubstr("levels (valid here: a level floor at z = 0)"));
-  walk = Box().walk;
   walk.certificate.tube.emplace();
   EXPECT_THAT(refused(walk), HasSubstr("tube"));
   walk = Box().walk;

@@ -15,6 +15,10 @@
 #include "tests/oracle/walk_truth.h"
 #include "wpg/robot/robot_model.h"
 
+namespace halfstep::checker {
+struct ForgeryTally;
+}
+
 namespace halfstep::oracle {
 
 /// What a control has the oracle take for true of a walk over levels, each by a little.
@@ -89,6 +93,11 @@ class Judge {
   /// The same of the walk's first step and one family alone, without overlaps. Quicker.
   Tally JudgeFamily(MarginFamily family, SceneKind kind, unsigned seed, const std::string& folder,
                     std::vector<std::string>* falsehoods) const;
+
+  /// Certificates of such a walk that are made wrong, asked of `halfstep check`
+  /// (tests/checker/forged_certificates.h).
+  checker::ForgeryTally Forge(SceneKind kind, unsigned seed, int rounds, const std::string& folder,
+                              std::vector<std::string>* falsehoods) const;
 
   const PlainRobot& plain() const { return plain_; }
   const RobotModel& robot() const { return robot_; }

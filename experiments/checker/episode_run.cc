@@ -1,0 +1,139 @@
+// What an episode's records say was walked.
+#include <algorithm>
+#include <filesystem>
+
+#include "experiments/checker/walk_run.h"
+#include "experiments/checker/walk_statements.h"
+#include "experiments/config/experiment.h"
+#include "experiments/live/spare_boxes.h"
+#include "experiments/verify/check_episode_proof.h"
+#include "experiments/verify/check_episode_worlds.h"
+#include "experiments/verify/config_plan.h"
+#include "experiments/verify/csv_text.h"
+#include "experiments/verify/episode_text.h"
+#include "experiments/verify/found_inputs.h"
+#include "experiments/verify/robot_numbers.h"
+#include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
+
+namespace halfstep::checker {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kNearer = 1e-3, kAtRest = 1e-9;  // [m], [s]
+
+// What a half-step is held to that begins at rest nearer to obstacles than demanded: from these it
+// keeps what it has when it begins, less kNearer, and at least 0. To demand less of an obstacle is
+// said here as a smaller error.
+Scene FromRest(const WalkRun& run, const StopBranch& branch, Scene world) {
+  const WalkTables cut = run.tables.CutAfter(branch.last);
+  const Interval before = branch.last > 0 ? cut.starts[branch.last - 1] +
+                                                Interval(cut.half_steps[branch.last - 1].duration)
+                                          : Interval(0.0);
+  if (before.hi > branch.from + kAtRest) {
+    throw InputError(
+        {Formatted("half-step %zu begins near an obstacle, but not from rest", branch.last + 1)});
+  }
+  verify::CertificateText distances;
+  distances.demanded.fill(verify::kNotDemanded);
+  distances.demanded[verify::kClearance] = 1e9;  // so that they are measured
+  WalkStatements statements(run.robot, world, distances);
+  const std::array<LegSolver, 2> solvers = {LegSolver(run.robot.legs[0]),
+                                            LegSolver(run.robot.legs[1])};
+  const WalkMotion motion(cut);
+  WalkState state(run.robot, solvers, motion,
+                  Interval(run.robot.waist_height) - Interval(run.crouch), branch.from,
+                  branch.from);
+  const double demanded = run.certificate.demanded[verify::kClearance];
+  std::vector<double> kept(world.obstacles.size(), demanded);
+  for (WalkStatement& statement : statements.all()) {
+    if (statement.b >= kept.size()) continue;  // the ground
+    kept[statement.b] = std::min(kept[statement.b], statements.Look(&statement, &state).value);
+  }
+  for (size_t k = 0; k < kept.size(); ++k) {
+    if (kept[k] < demanded) {
+      world.obstacles[k].motion.error -= demanded - std::max(0.0, kept[k] - kNearer);
+    }
+  }
+  return world;
+}
+
+}  // namespace
+
+WalkRun ReadEpisodeRun(const std::string& folder, const std::string& robot_file,
+                       const std::string& scene_file) {
+  const fs::path root(folder);
+  const std::string path = (root / "manifest.json").string();
+  const verify::EpisodeManifest manifest =
+      verify::ReadEpisodeManifest(path, verify::ReadBytes(path));
+  if (manifest.walks < 1) throw InputError({folder + ": nothing was walked"});
+  const LiveConfig config = LoadLiveConfig((root / "config.yaml").string(), {});
+  const ExperimentConfig& experiment = config.experiment;
+  WalkRun run;
+  run.whole = false;
+  run.robot = verify::WithAccelerations(
+      verify::FindRobot({"robot", root, {robot_file, RobotPath(experiment)}, manifest.robot_sha256})
+          .input,
+      experiment.smoothing.assumed_acceleration);
+  if (const auto scene = ScenePath(experiment)) {
+    run.scene =
+        verify::FindScene({"scene", root, {scene_file, *scene}, manifest.scene_sha256}).input;
+  }
+  run.scene = WithSpareBoxes(std::move(run.scene), config.live);
+  verify::Findings findings;
+  run.certificate = verify::DemandsOf(experiment.smoothing.limits, &findings);
+  const verify::EpisodeText episode =
+      verify::ReadEpisode(root, static_cast<size_t>(manifest.walks));
+  verify::CheckEpisodeNumbers(episode, run.scene, &findings);
+  if (findings.disagreements() > 0) throw InputError(findings.reasons());
+  const verify::EpisodeWalkText& walk = episode.walks.back();
+  const verify::HalfStep half_step = verify::HalfStepOf(experiment.half_step);
+  run.crouch = half_step.crouch;
+  run.tables = {walk.footsteps,
+                walk.half_steps,
+                {0.0},
+                half_step.form,
+                Interval(run.robot.com_height) - Interval(run.crouch)};
+  if (walk.overlaps.size() + 1 != walk.half_steps.size()) {
+    throw InputError({"overlaps.csv: has not one overlap for each two half-steps"});
+  }
+  for (size_t i = 0; i < walk.overlaps.size(); ++i) {
+    run.tables.starts.push_back(run.tables.starts[i] + Interval(walk.half_steps[i].duration) -
+                                Interval(walk.overlaps[i]));
+  }
+  std::vector<std::shared_ptr<const Scene>> worlds(episode.worlds.size());
+  for (size_t j = 0; j < episode.begun.size(); ++j) {
+    const verify::BegunRow& begun = episode.begun[j];
+    const auto grant = static_cast<size_t>(begun.grant);
+    if (begun.half_step != static_cast<int>(j) + 1 || j >= walk.half_steps.size() ||
+        grant >= episode.grants.size() ||
+        static_cast<size_t>(episode.grants[grant].world) >= worlds.size()) {
+      throw InputError({Formatted("begun.csv:%zu: names no half-step, grant or world", j + 2)});
+    }
+    const auto world = static_cast<size_t>(episode.grants[grant].world);
+    if (!worlds[world]) {
+      worlds[world] =
+          std::make_shared<const Scene>(verify::SceneOfWorld(episode, run.scene, world));
+    }
+    StopBranch branch{Formatted("stopped after half-step %zu, in world %zu", j + 1, world), j,
+                      run.tables.starts[j].lo, worlds[world]};
+    if (std::ranges::any_of(episode.events, [&](const verify::EventRow& event) {
+          return event.what == "near" && event.half_step == begun.half_step;
+        })) {
+      branch.world = std::make_shared<const Scene>(FromRest(run, branch, *worlds[world]));
+    }
+    run.branches.push_back(std::move(branch));
+  }
+  run.certificate.demanded[verify::kOwn] = verify::kNotDemanded;
+  run.not_covered = SentencesOf(manifest.not_covered);
+  for (const char* const line :
+       {"whether walks, worlds, grants and times belong together, and trajectory.csv (`halfstep "
+        "verify`)",
+        "the robot at rest, when obstacles come; families of a program's own"}) {
+    run.not_covered.emplace_back(line);
+  }
+  return run;
+}
+
+}  // namespace halfstep::checker

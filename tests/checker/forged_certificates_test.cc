@@ -1,0 +1,33 @@
+// Certificates that are wrong by 10⁻¹² to 10⁻³ are not proved: a small part of forgery_study.
+#include "tests/checker/forged_certificates.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/oracle/project_side.h"
+#include "tests/temporary_folder.h"
+
+namespace halfstep::checker {
+namespace {
+
+TEST(ForgedCertificates, AreNotProved) {
+  const TemporaryFolder folder;
+  const oracle::Judge judge(oracle::WriteJudgedRobot("wren", folder.path().string()));
+  ForgeryTally all;
+  std::vector<std::string> falsehoods;
+  for (const oracle::SceneKind kind :
+       {oracle::SceneKind::kPrimitives, oracle::SceneKind::kPlatforms}) {
+    for (unsigned seed = 1; seed < 4; ++seed) {
+      all.Add(judge.Forge(kind, seed, 2, folder.path().string(), &falsehoods));
+    }
+  }
+  for (const std::string& told : falsehoods) ADD_FAILURE() << told;
+  EXPECT_GE(all.walks, 3);
+  EXPECT_GE(all.proved, all.walks - 1);
+  long wrong = 0;
+  for (const auto& [name, count] : all.raised) wrong += count.wrong;
+  for (const auto& [name, count] : all.nudged) wrong += count.wrong;
+  EXPECT_GT(wrong, 50);
+}
+
+}  // namespace
+}  // namespace halfstep::checker
