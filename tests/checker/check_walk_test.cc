@@ -509,7 +509,7 @@ TEST(CheckCommand, ChecksRuns) {
   EXPECT_THAT(Halfstep(run.place.path(), {"check", "made", "--proof", "a.json"}).err,
               HasSubstr("--proof: is of one walk (valid with --method: raw, dichotomy)"));
   EXPECT_THAT(Halfstep(run.place.path(), {"check", "made/manifest.json"}).err,
-              HasSubstr("made/manifest.json: format: is missing"));
+              HasSubstr("made/manifest.json: format: is not a text"));
 
   const TemporaryFolder forged;
   std::filesystem::copy(run.place / "made", forged / "run",
