@@ -24,7 +24,7 @@ struct TrajectoryDemands {
     std::optional<double> from = {};  ///< [s]; none: from the first knot on
     std::optional<double> to = {};    ///< [s]; none: to the last one
   };
-  std::vector<Contact> contacts = {};
+  std::vector<Contact> contacts = {};  ///< that are claimed
   /// How far a corner of the box around a link's bodies is at most from where it is at `from` [m].
   double contact_distance = 1e-3;
   double contact_angle = 0.01;  ///< by how much it is turned at most from there [rad]

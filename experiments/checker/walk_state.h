@@ -73,6 +73,7 @@ class WalkState {
                                       const Seen<N>& lean = {}) const;
   /// Of a sole: its corners, seen from above, and its height [m]. Precondition: it stands.
   std::array<std::array<Interval, 2>, 4> CornersOf(size_t side) const;
+  /// Of a sole [m].
   const Interval& HeightOf(size_t side) const { return numbers_[kSole + 4 * side + 2].at[0]; }
   /// Whether both soles are at one height, to 10⁻¹⁰ m, as planner and margins count it.
   bool AreLevel() const { return (HeightOf(0) - HeightOf(1)).Magnitude() < 1e-10; }

@@ -50,11 +50,17 @@ ALLOWED_IN = {VERIFY: {
 }, CHECKER: {
     "experiments/config/data_folder.h": "where shipped robots and scenes are",
     "experiments/config/experiment.h": "the reader of configs",
+    "experiments/live/spare_boxes.h": "the obstacles that an episode's config adds to its scene",
     "experiments/tables/csv_reader.h": "the reader of anybody's tables",
     "experiments/verify/certificate_text.h": "the reader of certificates",
+    "experiments/verify/check_episode_proof.h": "which half-steps of an episode began anew",
+    "experiments/verify/check_episode_worlds.h": "the reader of an episode's worlds",
+    "experiments/verify/config_plan.h": "the reader of a config's form of half-steps",
     "experiments/verify/csv_text.h": "the reader of a run's tables",
+    "experiments/verify/episode_text.h": "the reader of an episode's tables",
     "experiments/verify/found_inputs.h": "where robot and scene of a run are",
     "experiments/verify/json_text.h": "the reader of JSON",
+    "experiments/verify/robot_numbers.h": "what a robot file states, in numbers",
     "experiments/verify/run_manifest.h": "the reader of manifests",
     "experiments/verify/walk_text.h": "the reader of the tables that describe a walk",
     "planner/scene/scene.h": "the reader of scenes",
@@ -67,6 +73,7 @@ ALLOWED_IN = {VERIFY: {
     "wpg/robot/robot_bodies.h": "the shapes of a URDF's links",
     "wpg/robot/robot_fields.h": "the reader of robot files",
     "wpg/robot/robot_model.h": "the reader of robots",
+    "wpg/robot/sole_outline.h": "the corners of a sole",
     "wpg/robot/urdf_file.h": "the reader of URDF",
 }}
 
