@@ -20,37 +20,27 @@ class WithError {
   double error() const { return error_; }                    ///< |exact − value| at most
   double most() const { return std::abs(value_) + error_; }  ///< |exact| at most
 
-  /// The sum.
   friend WithError operator+(const WithError& a, const WithError& b) {
     return Of(a.value_ + b.value_, a.error_ + b.error_);
-  }
-  /// The difference.
+  }  ///< plus
   friend WithError operator-(const WithError& a, const WithError& b) {
     return Of(a.value_ - b.value_, a.error_ + b.error_);
-  }
-  /// The product.
+  }  ///< minus
   friend WithError operator*(const WithError& a, const WithError& b) {
     return Of(a.value_ * b.value_, std::abs(a.value_) * b.error_ + a.error_ * b.most());
-  }
+  }  ///< times
   /// The error is not finite where b may be 0.
   friend WithError operator/(const WithError& a, const WithError& b) {
     const double value = a.value_ / b.value_, least = std::abs(b.value_) - b.error_;
     return Of(value, least > 0.0 ? (a.error_ + std::abs(value) * b.error_) / least : HUGE_VAL);
   }
-  /// The sum.
-  friend WithError operator+(const WithError& a, double b) { return a + WithError(b); }
-  /// The difference.
-  friend WithError operator-(const WithError& a, double b) { return a - WithError(b); }
-  /// The product.
-  friend WithError operator*(const WithError& a, double b) { return a * WithError(b); }
-  /// The quotient.
-  friend WithError operator/(const WithError& a, double b) { return a / WithError(b); }
-  /// The sum.
-  friend WithError operator+(double a, const WithError& b) { return WithError(a) + b; }
-  /// The difference.
-  friend WithError operator-(double a, const WithError& b) { return WithError(a) - b; }
-  /// The product.
-  friend WithError operator*(double a, const WithError& b) { return WithError(a) * b; }
+  friend WithError operator+(const WithError& a, double b) { return a + WithError(b); }  ///< plus
+  friend WithError operator-(const WithError& a, double b) { return a - WithError(b); }  ///< minus
+  friend WithError operator*(const WithError& a, double b) { return a * WithError(b); }  ///< times
+  friend WithError operator/(const WithError& a, double b) { return a / WithError(b); }  ///< over
+  friend WithError operator+(double a, const WithError& b) { return WithError(a) + b; }  ///< plus
+  friend WithError operator-(double a, const WithError& b) { return WithError(a) - b; }  ///< minus
+  friend WithError operator*(double a, const WithError& b) { return WithError(a) * b; }  ///< times
 
  private:
   // The operation's own rounding besides; outward, for the few by which the bound is found. The
