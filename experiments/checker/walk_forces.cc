@@ -153,9 +153,7 @@ Kept WalkStatements::Torque(const WalkStatement& statement, WalkState* state) co
       FirstOf(X_WLink.Turned(VectorOf<Curve>(X_LinkB.linear() * joint.axis_B)));
   const VectorIn<Rate> r =
       FirstOf(X_WLink * VectorOf<Curve>(X_LinkB * point)) - VectorOf<Rate>(all.reference);
-  const auto about = [&](const WalkState::Wrench& of) {
-    return Dot(e, of.moment - Cross(r, of.force));
-  };
+  const auto about = [&](const Push& of) { return Dot(e, of.moment - Cross(r, of.force)); };
   Rate links = 0.0;
   for (size_t j = statement.b; j < 6; ++j) links = links + about(all.links[side][j]);
   const Rate floor = about(all.floor);

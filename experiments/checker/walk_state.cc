@@ -4,7 +4,6 @@
 #include <numeric>
 
 #include "wpg/nth.h"
-#include "wpg/robot/gravity.h"
 
 namespace halfstep::checker {
 namespace {
@@ -16,10 +15,6 @@ FrameIn<Curve> Upright(const Curve& x, const Curve& y, const Curve& z, const Cur
   frame.R = {VectorIn<Curve>{c, -s, 0.0}, VectorIn<Curve>{s, c, 0.0}, frame.R[2]};
   frame.p = {x, y, z};
   return frame;
-}
-
-VectorIn<Rate> Second(const VectorIn<Curve>& x) {
-  return {x[0].Derivative<2, 1>(), x[1].Derivative<2, 1>(), x[2].Derivative<2, 1>()};
 }
 
 // The hull's corners in doubles, counter-clockwise (Andrew's chains). They go along a direction
@@ -149,50 +144,18 @@ template std::vector<SupportEdge<1>> WalkState::Support(const std::array<Seen<1>
 template std::vector<SupportEdge<3>> WalkState::Support(const std::array<Seen<3>, 2>&,
                                                         const Seen<3>&) const;
 
-// ∫ x × (ẍ + gẑ) dm. Of x = r + ρ with ρ = R ξ, ∫ ρ ρ̈ᵀ dm = R Σ R̈ᵀ with Σ = ½tr(I)·1 − I.
-WalkState::Wrench WalkState::Push(const BodyMass& body, const FrameIn<Curve>& X_W,
-                                  const Eigen::Vector3d& reference) {
-  const VectorIn<Curve> center = X_W * VectorOf<Curve>(body.com);
-  Wrench push;
-  push.force = Second(center);
-  push.force[2] = push.force[2] + Rate(kGravity);
-  for (Rate& f : push.force) f = body.mass * f;
-  VectorIn<Rate> r = FirstOf(center);
-  r = r - VectorOf<Rate>(reference);
-  push.moment = Cross(r, push.force);
-  const Eigen::Matrix3d& I = body.inertia;
-  FrameIn<Rate> square;  // Σ
-  const Interval half_trace = Interval(0.5) * (Interval(I(0, 0)) + I(1, 1) + I(2, 2));
-  for (size_t i = 0; i < 3; ++i) {
-    for (size_t k = 0; k < 3; ++k) {
-      const Interval entry =
-          -Interval(I(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)));
-      square.R[i][k] = i == k ? half_trace + entry : entry;
-    }
-  }
-  std::array<VectorIn<Rate>, 3> spread;  // rows of R Σ
-  for (size_t i = 0; i < 3; ++i) spread[i] = square.TurnedBack(FirstOf(X_W.R[i]));
-  for (size_t i = 0; i < 3; ++i) {
-    const size_t k = (i + 1) % 3, l = (i + 2) % 3;
-    push.moment[i] =
-        push.moment[i] + Dot(spread[k], Second(X_W.R[l])) - Dot(spread[l], Second(X_W.R[k]));
-  }
-  return push;
-}
-
 const WalkState::Dynamics& WalkState::dynamics() {
   if (dynamics_) return *dynamics_;
   leg(0), leg(1);
   Dynamics all;
   all.reference = {numbers_[kZmp].at[0].Middle(), numbers_[kZmp + 1].at[0].Middle(),
                    HeightOf(Stands(0) ? 0 : 1).Middle()};
-  all.floor = Push(robot_.masses.waist, X_WB_, all.reference);
+  all.floor = PushOf(robot_.masses.waist, X_WB_, all.reference);
   for (size_t side = 0; side < 2; ++side) {
     for (size_t i = 0; i < 6; ++i) {
-      Wrench& link = all.links[side][i];
-      link = Push(robot_.masses.links[side][i], legs_[side]->X_WLink[i], all.reference);
-      all.floor.force = all.floor.force + link.force;
-      all.floor.moment = all.floor.moment + link.moment;
+      Push& link = all.links[side][i];
+      link = PushOf(robot_.masses.links[side][i], legs_[side]->X_WLink[i], all.reference);
+      all.floor += link;
     }
   }
   const Rate scale = Inverse(all.floor.force[2]);

@@ -5,12 +5,11 @@
 #include <vector>
 
 #include "experiments/checker/leg_motion.h"
+#include "experiments/checker/push.h"
 #include "experiments/checker/walk_motion.h"
 #include "wpg/robot/robot_model.h"
 
 namespace halfstep::checker {
-
-using Rate = Taylor<1>;  ///< a function of time whose derivative is bounded
 
 template <int N>
 using Seen = std::array<Taylor<N>, 2>;  ///< x and y of a point in motion [m]
@@ -25,26 +24,16 @@ struct SupportEdge {
   Taylor<N> inside;  ///< how far to its left the point is [m]
 };
 
-/// Of a vector its first derivatives.
-inline VectorIn<Rate> FirstOf(const VectorIn<Curve>& x) {
-  return {x[0].Derivative<0, 1>(), x[1].Derivative<0, 1>(), x[2].Derivative<0, 1>()};
-}
-
 /// The robot's walk on an interval of time, in which the same soles stand.
 class WalkState {
  public:
-  /// A force and its moment about the reference point [N], [N m].
-  struct Wrench {
-    VectorIn<Rate> force{};   ///< [N]
-    VectorIn<Rate> moment{};  ///< [N m]
-  };
   /// What moves the links, and the floor's part of it.
   struct Dynamics {
-    std::array<std::array<Wrench, 6>, 2> links;  ///< of the legs by Index(Side)
-    Wrench floor;                                ///< of all bodies
-    Eigen::Vector3d reference;                   ///< moments are about this point [m]
-    Seen<1> zmp;                                 ///< of the robot in its plane, seen from there [m]
-    Seen<1> lean;                                ///< f_t/f_z: how far it moves per metre of height
+    std::array<std::array<Push, 6>, 2> links;  ///< of the legs by Index(Side)
+    Push floor;                                ///< of all bodies
+    Eigen::Vector3d reference;                 ///< moments are about this point [m]
+    Seen<1> zmp;                               ///< of the robot in its plane, seen from there [m]
+    Seen<1> lean;                              ///< f_t/f_z: how far it moves per metre of height
 
     /// The robot's ZMP in the plane of a height, in W [m].
     Seen<1> At(const Interval& z) const {
@@ -91,9 +80,6 @@ class WalkState {
   const Dynamics& dynamics();
 
  private:
-  static Wrench Push(const BodyMass& body, const FrameIn<Curve>& X_W,
-                     const Eigen::Vector3d& reference);
-
   const RobotModel& robot_;
   const std::array<LegSolver, 2>& solvers_;
   double middle_, h_;

@@ -62,7 +62,7 @@ TEST(StoppedRun, CtrlCKeepsWhatIsAccepted) {
   close(other_end);
   // The progress bar appears when a method has worked for a second.
   std::string screen;
-  ASSERT_TRUE(WaitFor("s left", terminal, &screen)) << screen << child.Wait().out;
+  ASSERT_TRUE(WaitFor(" %, best so far", terminal, &screen)) << screen << child.Wait().out;
   EXPECT_THAT(screen, HasSubstr("dichotomy ["));
   child.Signal(SIGINT);
   WaitFor("text that never comes", terminal, &screen);

@@ -72,6 +72,7 @@ ALLOWED_IN = {VERIFY: {
     "wpg/robot/gravity.h": "a number",
     "wpg/robot/robot_bodies.h": "the shapes of a URDF's links",
     "wpg/robot/robot_fields.h": "the reader of robot files",
+    "wpg/robot/robot_masses.h": "the mass of a body, as that reader has it",
     "wpg/robot/robot_model.h": "the reader of robots",
     "wpg/robot/sole_outline.h": "the corners of a sole",
     "wpg/robot/urdf_file.h": "the reader of URDF",
