@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdlib>
 #include <random>
 
 namespace halfstep {
@@ -12,8 +13,11 @@ constexpr bool kSanitized = true;
 constexpr bool kSanitized = false;
 #endif
 
-/// `count`, or a tenth of it (at least 1) when sanitized.
-constexpr int Draws(int count) { return kSanitized ? std::max(1, count / 10) : count; }
+/// Whether tests draw a tenth: when sanitized, and for tests/run.sh without --all.
+inline const bool kFewDraws = kSanitized || std::getenv("HALFSTEP_FEW_DRAWS") != nullptr;
+
+/// `count`, or a tenth of it (at least 1) with few draws.
+inline int Draws(int count) { return kFewDraws ? std::max(1, count / 10) : count; }
 
 /// A number in [lower, upper), all alike.
 inline double Uniform(std::mt19937* random, double lower, double upper) {

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/places.h"
 #include "wpg/files/input_error.h"
 
 namespace halfstep {
@@ -17,7 +18,7 @@ namespace halfstep {
 /// Files tests/fixtures/<folder>/*.yaml, sorted: bad inputs, for INSTANTIATE_TEST_SUITE_P. Each
 /// begins with one line "# expect: <part of the message>" for every complaint that it must cause.
 inline std::vector<std::string> Fixtures(const std::string& folder) {
-  const auto path = std::filesystem::path(HALFSTEP_SOURCE_DIR) / "tests" / "fixtures" / folder;
+  const auto path = std::filesystem::path(InSources("tests/fixtures")) / folder;
   std::vector<std::string> files;
   for (const auto& entry : std::filesystem::directory_iterator(path)) {
     if (entry.path().extension() == ".yaml") files.push_back(entry.path().string());

@@ -1,6 +1,7 @@
 #!/bin/sh
 # Builds and tests everything but the benchmarks.
-#   tests/run.sh           release, without a few slow tests; what .ci/run does
+#   tests/run.sh           release, without a few slow tests and with a tenth of what others draw;
+#                          what .ci/run does
 #   tests/run.sh --all     all of release, and debug with AddressSanitizer and UBSan, which leaves out a few slow
 #                          tests, a look for types that have two definitions (-flto -Wodr), and a
 #                          quick look by every fuzz target: before a change lands
@@ -55,6 +56,7 @@ release_only="$release_only|walks.stand|EveryValue|ATouchIsToldByEverything"
 # What .ci/run has no time for: 20 minutes on two cores, of which half are the build's.
 all_only='^$'
 if [ "$presets" = release ]; then
+  export HALFSTEP_FEW_DRAWS=1
   # Of the three bars, which differ in height, 8 cm stays, and of walks over levels one.
   all_only='walks.stand/(bar_10cm|bar_5cm|bison|clutter|crossing|cylinders|fence|fig4|fig5|island|plan_|platform|random_room|stones|wren)'
   all_only="$all_only|walks.stand/stairs_(10cm_down|15cm)"

@@ -35,6 +35,15 @@ std::string OptionMistake(const CLI::App& command) {
          "; " + help + ")";
 }
 
+std::string MissingWord(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options()) {
+    if (!option->get_required() || option->count() > 0) continue;
+    return option->get_name() + " is missing: " + option->get_description() + " (`halfstep " +
+           command.get_name() + " -h` explains)";
+  }
+  return "";
+}
+
 CLI::Validator OneOf(const std::vector<std::string>& choices) {
   return CLI::Validator(
       [choices](const std::string& word) {

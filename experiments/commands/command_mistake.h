@@ -14,6 +14,9 @@ std::string CommandMistake(int argc, char** argv);
 /// options; "": it took them all.
 std::string OptionMistake(const CLI::App& command);
 
+/// Which word a command's line lacks, with what it is; "": none.
+std::string MissingWord(const CLI::App& command);
+
 /// The value of an option that must be one of some words. Refuses another with the nearest of them.
 CLI::Validator OneOf(const std::vector<std::string>& choices);
 

@@ -36,6 +36,12 @@ int RunAction(const CommandAction& action) {
   }
 }
 
+std::string MistakeOf(const CLI::ParseError& error, const CLI::App& command) {
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) return OptionMistake(command);
+  if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) return MissingWord(command);
+  return "";
+}
+
 }  // namespace
 
 int RunExperiment(int argc, char** argv, const Toolbox& tools) {
@@ -51,15 +57,13 @@ int RunExperiment(int argc, char** argv, const Toolbox& tools) {
   try {
     const PlainLocale plain;  // CLI11 reads numbers by strtold
     app.parse(argc, argv);
-  } catch (const CLI::ExtrasError& error) {
+  } catch (const CLI::ParseError& error) {
     for (const auto& [command, action] : commands) {
-      const std::string mistake = *command ? OptionMistake(*command) : "";
+      const std::string mistake = *command ? MistakeOf(error, *command) : "";
       if (mistake.empty()) continue;
       std::cerr << "halfstep: " << command->get_name() << ": " << mistake << '\n';
       return kBadInput;
     }
-    return app.exit(error) == 0 ? kSuccess : kBadInput;
-  } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kSuccess : kBadInput;
   }
   for (const auto& [command, action] : commands) {

@@ -14,6 +14,7 @@
 #include "experiments/config/experiment.h"
 #include "smoothing/methods/dichotomy.h"
 #include "smoothing/proof/certified_feasibility.h"
+#include "tests/places.h"
 #include "tests/smoothing/certificate_draws.h"
 #include "tests/smoothing/smoothed.h"
 
@@ -144,7 +145,7 @@ void Walks(long walks, unsigned seed, const std::string& name, bool all) {
 void Dichotomies() {
   std::printf("\n%-22s %9s | %9s %9s %8s | %9s %9s %8s | %8s  %s\n", "config", "planned", "sampled",
               "instants", "wall", "certified", "intervals", "wall", "longer", "whole walk again");
-  for (const auto& path : YamlFiles(HALFSTEP_SOURCE_DIR "/experiments/configs")) {
+  for (const auto& path : YamlFiles(InSources("experiments/configs"))) {
     const Experiment e = Prepare(LoadConfig(path.string(), {}));
     const MarginEvaluator evaluator(e.robot, e.scene, e.config.smoothing.limits);
     const SampledFeasibility sampled(evaluator, 0.005);

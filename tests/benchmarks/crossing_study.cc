@@ -16,6 +16,7 @@
 #include "experiments/run/half_step_forms.h"
 #include "experiments/run/planning.h"
 #include "planner/swept/swept_volume_query.h"
+#include "tests/places.h"
 #include "tests/planner/swept_volume_draws.h"
 #include "wpg/robot/robot_measures.h"
 
@@ -25,7 +26,7 @@ int main(int argc, char** argv) {
   SweptDraw draw(argc > 2 ? std::strtoul(argv[2], nullptr, 10) : 1);
   const std::string name = argc > 3 ? argv[3] : "hrp2";
   ExperimentConfig config =
-      LoadConfig(HALFSTEP_SOURCE_DIR "/experiments/configs/island.yaml", {{"robot", name}});
+      LoadConfig(InSources("experiments/configs/island.yaml"), {{"robot", name}});
   const RobotModel robot = LoadPlace(config).robot;
   const double leg = LegLengthOf(robot);
   const auto bar_at = [&](double height, const Foothold& at) {

@@ -11,6 +11,7 @@
 #include "planner/collision/convex_distance.h"
 #include "planner/swept/swept_volume.h"
 #include "smoothing/proof/missed_demands.h"
+#include "tests/places.h"
 #include "tests/wpg/one_step.h"
 #include "tests/wpg/random_direction.h"
 #include "wpg/geometry/simplified_hull.h"
@@ -45,7 +46,7 @@ ConvexBody Dense(const ConvexBody& body, int count, double radius, std::mt19937*
 // of the bodies, for these make the map themselves.
 RobotModel DenseRobot(int count, double radius, Kind kind) {
   std::mt19937 random(1);
-  RobotModel robot = LoadRobot(HALFSTEP_SOURCE_DIR "/wpg/robots/hrp2.yaml");
+  RobotModel robot = LoadRobot(InSources("wpg/robots/hrp2.yaml"));
   for (RobotBody& body : robot.bodies) {
     body.shape = As(Dense(body.shape, count, radius, &random), kind);
   }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/places.h"
 #include "tests/wpg/generated_robots.h"
 #include "tests/wpg/shipped_robots.h"
 #include "wpg/robot/leg_ik.h"
@@ -49,9 +50,8 @@ BENCHMARK_CAPTURE(BM_SolveLegIk, bison, "bison");
 void BM_SolveLegIkWalking(benchmark::State& state) {
   const std::vector<GeneratedRobot> offset = OffsetRobots();
   const size_t which = static_cast<size_t>(state.range(0));
-  const Leg leg = which < offset.size()
-                      ? TemporaryRobot(offset[which]).Load().legs[0]
-                      : LoadRobot(HALFSTEP_SOURCE_DIR "/wpg/robots/hrp2.yaml").legs[0];
+  const Leg leg = which < offset.size() ? TemporaryRobot(offset[which]).Load().legs[0]
+                                        : LoadRobot(InSources("wpg/robots/hrp2.yaml")).legs[0];
   state.SetLabel(which < offset.size() ? offset[which].name : "hrp2");
   std::mt19937 random(1);
   std::uniform_real_distribution<> unit(-1, 1);

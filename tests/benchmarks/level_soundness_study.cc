@@ -16,6 +16,7 @@
 #include "experiments/run/planning.h"
 #include "planner/ground/level_ground.h"
 #include "planner/swept/swept_volume_query.h"
+#include "tests/places.h"
 #include "tests/planner/swept_volume_draws.h"
 #include "tests/wpg/shipped_robots.h"
 #include "wpg/files/number_text.h"
@@ -99,7 +100,7 @@ int main(int argc, char** argv) {
   const RobotModel robot = ShippedRobot(name);
   const double size = LegScale(robot), rise = std::round(50 * size) * 1e-3;
   const auto scaled = [&](double length) { return ShortestText(length * size); };
-  const ExperimentConfig config = LoadConfig(HALFSTEP_SOURCE_DIR "/experiments/configs/island.yaml",
+  const ExperimentConfig config = LoadConfig(InSources("experiments/configs/island.yaml"),
                                              {{"robot", name},
                                               {"half_step.via_height_m", scaled(0.22)},
                                               {"half_step.foot_delay", "0.16"},

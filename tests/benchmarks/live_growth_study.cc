@@ -17,6 +17,7 @@
 #include "experiments/live/prepared_world.h"
 #include "experiments/live/replanner.h"
 #include "experiments/run/baked_half_steps.h"
+#include "tests/places.h"
 
 namespace {
 
@@ -133,7 +134,7 @@ void PrintRow(LiveConfig config, int obstacles, double way) {
 
 int main(int argc, char** argv) {
   const bool obstacles = argc > 1 && std::string(argv[1]) == "obstacles";
-  LiveConfig config = LoadLiveConfig(HALFSTEP_SOURCE_DIR "/experiments/episodes/live_bar.yaml", {});
+  LiveConfig config = LoadLiveConfig(InSources("experiments/episodes/live_bar.yaml"), {});
   config.live.script.clear();
   std::printf(
       "| obstacles | half-steps | frame | prepare | check | plan | smooth | search in vain |\n"

@@ -15,6 +15,7 @@
 
 #include "tests/benchmarks/live_table.h"
 #include "tests/benchmarks/studied_episode.h"
+#include "tests/places.h"
 
 namespace {
 
@@ -22,7 +23,7 @@ using namespace halfstep;
 
 LiveStudy MakeStudy(const std::string& policy) {
   LiveStudy study;
-  study.base = LoadLiveConfig(HALFSTEP_SOURCE_DIR "/experiments/episodes/live_bar.yaml", {});
+  study.base = LoadLiveConfig(InSources("experiments/episodes/live_bar.yaml"), {});
   study.base.live.policy = policy == "wall" || policy == "counted" ? "replan" : policy;
   if (policy == "wall") study.base.live.clock = "wall";
   if (policy == "counted") study.base.live.budget.effort = 1.0;

@@ -20,6 +20,7 @@
 #include "smoothing/methods/methods.h"
 #include "smoothing/methods/solver_method_options.h"
 #include "smoothing/proof/certified_feasibility.h"
+#include "tests/places.h"
 #include "tests/smoothing/smoothed.h"
 
 namespace halfstep {
@@ -28,8 +29,7 @@ namespace {
 double Processor() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 Experiment LongWalk(int half_steps, bool arc) {
-  Experiment e =
-      Prepare(LoadConfig(HALFSTEP_SOURCE_DIR "/experiments/configs/fig4_raw_sequence.yaml", {}));
+  Experiment e = Prepare(LoadConfig(InSources("experiments/configs/fig4_raw_sequence.yaml"), {}));
   e.config.footsteps.clear();
   Pose2 middle;
   for (int i = 1; i <= half_steps / 2; ++i) {

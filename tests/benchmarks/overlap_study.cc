@@ -24,6 +24,7 @@
 #include "smoothing/methods/overlap_optimizer.h"
 #include "smoothing/methods/solver_method_options.h"
 #include "smoothing/proof/certified_feasibility.h"
+#include "tests/places.h"
 #include "tests/smoothing/smoothed.h"
 
 namespace halfstep {
@@ -34,7 +35,7 @@ double Now() {
 }
 
 Experiment Load(const std::string& name) {
-  return Prepare(LoadConfig(HALFSTEP_SOURCE_DIR "/experiments/configs/" + name + ".yaml", {}));
+  return Prepare(LoadConfig(InSources("experiments/configs/") + name + ".yaml", {}));
 }
 
 // Processor time of the calling thread [s].

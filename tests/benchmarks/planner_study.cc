@@ -18,6 +18,7 @@
 #include "experiments/run/planning.h"
 #include "planner/search/plan_shortcut.h"
 #include "planner/swept/swept_volume_query.h"
+#include "tests/places.h"
 #include "tests/planner/flat_world.h"
 #include "wpg/motion/lipm.h"
 
@@ -42,7 +43,7 @@ struct Scenario {
 
 Problem Shipped(const std::string& name) {
   const ExperimentConfig config =
-      LoadConfig(HALFSTEP_SOURCE_DIR "/experiments/configs/" + name + ".yaml", {});
+      LoadConfig(InSources("experiments/configs/") + name + ".yaml", {});
   const Place place = LoadPlace(config);
   Problem problem{
       place.scene, StartOf(config, place.robot, *place.scene.ground), config.goal.Region(), {}};
@@ -234,7 +235,7 @@ int main(int argc, char** argv) {
                        }});
   scenarios.push_back({"random_room", true, RandomRoom});
   scenarios.push_back({"meshes", true, Meshes, 3});
-  ExperimentConfig config = LoadConfig(HALFSTEP_SOURCE_DIR "/experiments/configs/island.yaml", {});
+  ExperimentConfig config = LoadConfig(InSources("experiments/configs/island.yaml"), {});
   const RobotModel robot = LoadPlace(config).robot;
   std::optional<BakedHalfSteps> baked;
   for (const Scenario& scenario : scenarios) {

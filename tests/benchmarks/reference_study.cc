@@ -17,6 +17,7 @@
 #include "tests/benchmarks/coordinate_ascent.h"
 #include "tests/benchmarks/reference_search.h"
 #include "tests/benchmarks/reference_smoothers.h"
+#include "tests/places.h"
 #include "tests/smoothing/smoothed.h"
 
 namespace halfstep {
@@ -45,7 +46,7 @@ SmoothingResult Smooth(const HalfStepSequence& sequence, const FeasibilityTest& 
 
 void Study(const std::string& config, const std::string& method, const std::string& variables) {
   const Experiment e =
-      Prepare(LoadConfig(HALFSTEP_SOURCE_DIR "/experiments/configs/" + config + ".yaml", {}));
+      Prepare(LoadConfig(InSources("experiments/configs/") + config + ".yaml", {}));
   const MarginEvaluator evaluator(e.robot, e.scene, e.config.smoothing.limits);
   const CertifiedFeasibility test(evaluator, {});
   const SmoothingResult result =

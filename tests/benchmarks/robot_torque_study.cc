@@ -18,6 +18,7 @@
 #include "smoothing/methods/dichotomy.h"
 #include "smoothing/proof/certified_feasibility.h"
 #include "tests/experiments/robot_motion_at.h"
+#include "tests/places.h"
 #include "tests/smoothing/certificate_draws.h"
 #include "tests/smoothing/robot_truth.h"
 #include "tests/smoothing/smoothed.h"
@@ -66,11 +67,10 @@ void Needs(const std::string& name, const std::vector<std::string>& durations) {
   for (int j = 0; j < 6; ++j) std::printf("  joint %d", j);
   std::printf("  friction\n");
   for (const std::string& duration : durations) {
-    const Experiment e = Prepare(
-        LoadConfig(std::string(HALFSTEP_SOURCE_DIR "/experiments/configs/") + name + ".yaml",
-                   {{"half_step.duration_s", duration},
-                    {"smoothing.margins.torque_n_m", "none"},
-                    {"smoothing.margins.friction", "none"}}));
+    const Experiment e = Prepare(LoadConfig(InSources("experiments/configs/") + name + ".yaml",
+                                            {{"half_step.duration_s", duration},
+                                             {"smoothing.margins.torque_n_m", "none"},
+                                             {"smoothing.margins.friction", "none"}}));
     const MarginEvaluator evaluator(e.robot, e.scene, e.config.smoothing.limits);
     const CertifiedFeasibility proof(evaluator, {});
     const SmoothingResult smoothed = Smoothed(Dichotomy, ProblemOf(e.sequence, proof),
@@ -120,8 +120,7 @@ double LeastSeconds(const std::function<void()>& work) {
 // Margins at instants, certificate and rows of the program of one walk: without torque and
 // friction, with torque, with friction, with both.
 void Cost(const std::string& name) {
-  const Experiment e = Prepare(
-      LoadConfig(std::string(HALFSTEP_SOURCE_DIR "/experiments/configs/") + name + ".yaml", {}));
+  const Experiment e = Prepare(LoadConfig(InSources("experiments/configs/") + name + ".yaml", {}));
   MarginLimits none = e.config.smoothing.limits;
   none.demanded_of(MarginFamily::kTorque) = none.demanded_of(MarginFamily::kFriction) =
       kNotDemanded;

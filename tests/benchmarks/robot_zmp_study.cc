@@ -18,6 +18,7 @@
 #include "smoothing/margins/slack_evaluator.h"
 #include "smoothing/methods/dichotomy.h"
 #include "smoothing/proof/certified_feasibility.h"
+#include "tests/places.h"
 #include "tests/smoothing/certificate_draws.h"
 #include "tests/smoothing/smoothed.h"
 #include "wpg/motion/zmp_drift.h"
@@ -49,8 +50,7 @@ struct Pair {
 };
 
 void Cost(const std::string& name) {
-  const Experiment e = Prepare(
-      LoadConfig(std::string(HALFSTEP_SOURCE_DIR "/experiments/configs/") + name + ".yaml", {}));
+  const Experiment e = Prepare(LoadConfig(InSources("experiments/configs/") + name + ".yaml", {}));
   const MarginLimits limits = e.config.smoothing.limits;
   MarginLimits without = limits;
   for (const MarginFamily family :

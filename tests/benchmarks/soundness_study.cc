@@ -17,6 +17,7 @@
 #include "experiments/run/planning.h"
 #include "planner/swept/swept_volume_query.h"
 #include "tests/oracle/unequal_legs.h"
+#include "tests/places.h"
 #include "tests/planner/swept_volume_draws.h"
 #include "tests/temporary_folder.h"
 #include "tests/wpg/shipped_robots.h"
@@ -80,7 +81,7 @@ int main(int argc, char** argv) {
   if (argc > 5) overrides.push_back({"half_step.via_height_m", argv[5]});
   const double high = argc > 5 ? 2.0 : 0.8;
   const ExperimentConfig config =
-      LoadConfig(HALFSTEP_SOURCE_DIR "/experiments/configs/island.yaml", overrides);
+      LoadConfig(InSources("experiments/configs/island.yaml"), overrides);
   const BakedHalfSteps baked = BakeHalfSteps(robot, config, {});
   const SweptVolumes& volumes = *baked.cached.volumes;
   Counts n;

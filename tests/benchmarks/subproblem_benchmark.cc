@@ -15,6 +15,7 @@
 #include "smoothing/methods/overlap_optimizer.h"
 #include "smoothing/methods/search_tuning.h"
 #include "smoothing/proof/certified_feasibility.h"
+#include "tests/places.h"
 #include "tests/smoothing/smoothed.h"
 
 namespace halfstep {
@@ -27,7 +28,7 @@ constexpr double kPenalty = 2.0;
 // The gap is so many thousandths of what the step saves.
 void Subproblem(benchmark::State& state, const char* config) {
   const Experiment e =
-      Prepare(LoadConfig(HALFSTEP_SOURCE_DIR "/experiments/configs/" + std::string(config), {}));
+      Prepare(LoadConfig(InSources("experiments/configs/") + std::string(config), {}));
   const MarginEvaluator evaluator(e.robot, e.scene, e.config.smoothing.limits);
   const CertifiedFeasibility test(evaluator, {});
   const SmoothingResult start =

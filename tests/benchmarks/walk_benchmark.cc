@@ -8,6 +8,7 @@
 #include "smoothing/margins/slack_evaluator.h"
 #include "smoothing/methods/dichotomy.h"
 #include "smoothing/proof/sampled_feasibility.h"
+#include "tests/places.h"
 #include "tests/smoothing/smoothed.h"
 #include "tests/smoothing/test_walks.h"
 #include "wpg/motion/posture.h"
@@ -16,7 +17,7 @@ namespace halfstep {
 namespace {
 
 Experiment Load(const std::string& name) {
-  return Prepare(LoadConfig(HALFSTEP_SOURCE_DIR "/experiments/configs/" + name + ".yaml", {}));
+  return Prepare(LoadConfig(InSources("experiments/configs/") + name + ".yaml", {}));
 }
 
 // Instants that go through the walk again and again.

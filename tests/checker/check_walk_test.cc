@@ -13,6 +13,7 @@
 #include "experiments/run/exit_status.h"
 #include "experiments/verify/csv_text.h"
 #include "tests/experiments/child_process.h"
+#include "tests/places.h"
 #include "tests/refusal_of.h"
 #include "tests/temporary_folder.h"
 #include "tests/verify/tampered_episode.h"
@@ -40,7 +41,7 @@ struct MadeRun {
 };
 const MadeRun& Box() {
   static const MadeRun run(R"(robot: hrp2
-scene: )" HALFSTEP_SOURCE_DIR R"(/experiments/scenes/box.yaml
+scene: )" + InSources() + R"(/experiments/scenes/box.yaml
 footsteps:
   - {foot: right, x_m: 0.274, y_m: -0.105}
 half_step: {foot_delay: 0.19}
@@ -426,7 +427,7 @@ TEST(CheckWalk, WalksOverOtherGroundAreNotProved) {
 
 TEST(CheckWalk, StopBranchesAreProved) {
   const MadeRun run(R"(robot: hrp2
-scene: )" HALFSTEP_SOURCE_DIR R"(/experiments/scenes/box.yaml
+scene: )" + InSources() + R"(/experiments/scenes/box.yaml
 footsteps:
   - {foot: right, x_m: 0.274, y_m: -0.105}
 half_step: {foot_delay: 0.19}

@@ -5,6 +5,7 @@
 
 #include "experiments/commands/commands.h"
 #include "tests/experiments/child_process.h"
+#include "tests/places.h"
 #include "tests/temporary_folder.h"
 
 namespace halfstep {
@@ -19,9 +20,7 @@ struct BadInput {
   std::string complaint;  // a part of it
 };
 
-std::string Fixture(const std::string& file) {
-  return HALFSTEP_SOURCE_DIR "/tests/fixtures/" + file;
-}
+std::string Fixture(const std::string& file) { return InSources("tests/fixtures/") + file; }
 
 void PrintTo(const BadInput& input, std::ostream* out) { *out << input.name; }
 
@@ -37,17 +36,20 @@ TEST_P(BadInputTest, ExitsWithTwoAndWritesNothing) {
 }
 
 const std::string kGood = ShippedConfig("fig3_two_half_steps");
-const std::string kUrdf = HALFSTEP_SOURCE_DIR "/wpg/robots/hrp2.urdf";
+const std::string kUrdf = InSources("wpg/robots/hrp2.urdf");
 
 INSTANTIATE_TEST_SUITE_P(
     Command, BadInputTest,
     testing::ValuesIn(std::vector<BadInput>{
         {"NoCommand", {}, "(valid: init, run, "},
         {"UnknownCommand", {"walk"}, "walk"},
-        {"NoConfig", {"run"}, "CONFIG is required"},
+        {"NoConfig", {"run"}, "halfstep: run: CONFIG is missing: "},
+        {"NoRun", {"verify"}, "verify: RUN is missing: run folder (`halfstep verify -h` explains)"},
         {"UnknownOption", {"run", kGood, "--outt", "a"}, "--outt"},
         {"TwoConfigs", {"run", kGood, kGood}, "fig3"},
-        {"MissingFile", {"run", "nowhere.yaml"}, "nowhere.yaml: no such file (valid: a path, or a name of bar_10cm"},
+        {"MissingFile",
+         {"run", "nowhere.yaml"},
+         "nowhere.yaml: no such file (valid: a path, or a name of bar_10cm"},
         {"FolderAsFile", {"run", "."}, "a folder"},
         {"UnknownKey", {"run", Fixture("config/unknown_key.yaml")}, ":5:1: colour: unknown key"},
         {"BadScene",

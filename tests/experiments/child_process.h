@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/places.h"
+
 namespace halfstep {
 
 /// How a process ended: `status` when it exited, else −1 and the signal that killed it.
@@ -38,7 +40,7 @@ class Child {
       : out_(memfd_create("out", MFD_CLOEXEC)), err_(memfd_create("err", MFD_CLOEXEC)) {
     // Another build of the command takes its place in the mutation table (tests/mutation).
     const char* const instead = std::getenv("HALFSTEP_COMMAND");
-    std::vector<std::string> words = {instead != nullptr ? instead : HALFSTEP_COMMAND};
+    std::vector<std::string> words = {instead != nullptr ? instead : CommandFile()};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());
@@ -101,7 +103,7 @@ inline Outcome Halfstep(const std::filesystem::path& working_directory,
 
 /// Path of a shipped config.
 inline std::string ShippedConfig(const std::string& name) {
-  return HALFSTEP_SOURCE_DIR "/experiments/configs/" + name + ".yaml";
+  return InSources("experiments/configs/") + name + ".yaml";
 }
 
 }  // namespace halfstep

@@ -11,6 +11,7 @@
 #include "experiments/commands/commands.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/run_check.h"
+#include "tests/places.h"
 #include "tests/temporary_folder.h"
 #include "wpg/motion/lipm.h"
 
@@ -44,8 +45,7 @@ std::string WithoutWallTimes(std::string report) {
 // What a URDF has that no leg needs is told, and does not stop the run.
 TEST(RunCommand, TellsWhatWasRepairedInTheUrdf) {
   const TemporaryFolder place;
-  fs::copy(fs::path(HALFSTEP_SOURCE_DIR) / "wpg/robots", place / "robots",
-           fs::copy_options::recursive);
+  fs::copy(InSources("wpg/robots"), place / "robots", fs::copy_options::recursive);
   std::string urdf = ReadText(place / "robots/hrp2.urdf");
   urdf.insert(urdf.rfind("</robot>"),
               "<link name='finger'/><joint name='grip' type='revolute'><parent link='WAIST'/>"
@@ -53,9 +53,8 @@ TEST(RunCommand, TellsWhatWasRepairedInTheUrdf) {
   WriteText(place / "robots/hrp2.urdf", urdf);
   const std::string robot = "robot=" + (place / "robots/hrp2.yaml").string();
   for (const std::string command : {"run", "live"}) {
-    const std::string config =
-        command == "run" ? ShippedConfig("fig3_two_half_steps")
-                         : std::string(HALFSTEP_SOURCE_DIR) + "/experiments/episodes/live_bar.yaml";
+    const std::string config = command == "run" ? ShippedConfig("fig3_two_half_steps")
+                                                : InSources("experiments/episodes/live_bar.yaml");
     std::vector<std::string> arguments = {command, config, "--set", robot, "--out", command};
     // An episode ends before anything is baked.
     if (command == "live") arguments.insert(arguments.end(), {"--serve", "no/such/folder"});

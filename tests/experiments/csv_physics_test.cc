@@ -12,6 +12,7 @@
 #include "experiments/config/data_folder.h"
 #include "experiments/config/experiment.h"
 #include "tests/experiments/parsed_csv.h"
+#include "tests/places.h"
 #include "tests/temporary_folder.h"
 #include "tests/wpg/generated_robots.h"
 #include "wpg/robot/robot_model.h"
@@ -107,7 +108,7 @@ void CheckPhysics(const std::string& config, const std::vector<YamlOverride>& ov
 }
 
 TEST(CsvPhysics, Hrp2) {
-  const std::string config = HALFSTEP_SOURCE_DIR "/experiments/configs/fig4_raw_sequence.yaml";
+  const std::string config = InSources("experiments/configs/fig4_raw_sequence.yaml");
   CheckPhysics(config, {{"output.period_s", "0.01"}},
                LoadRobot((RobotsFolder() / "hrp2.yaml").string()));
 }
@@ -115,7 +116,7 @@ TEST(CsvPhysics, Hrp2) {
 TEST(CsvPhysics, OtherShippedRobots) {
   for (const std::string name : {"wren", "bison"}) {
     SCOPED_TRACE(name);
-    CheckPhysics(HALFSTEP_SOURCE_DIR "/experiments/configs/" + name + "_six_steps.yaml",
+    CheckPhysics(InSources("experiments/configs/") + name + "_six_steps.yaml",
                  {{"smoothing.methods", "[dichotomy, dichotomy/published]"}},
                  LoadRobot((RobotsFolder() / (name + ".yaml")).string()));
   }

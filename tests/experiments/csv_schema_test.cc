@@ -12,6 +12,7 @@
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/made_once.h"
 #include "tests/experiments/parsed_csv.h"
+#include "tests/places.h"
 #include "tests/temporary_folder.h"
 
 namespace halfstep {
@@ -117,7 +118,7 @@ TEST(CsvSchema, PandasGivesEveryColumnItsType) {
   if (python.empty()) GTEST_SKIP() << "no Python with pandas";
   const TemporaryFolder place;
   MakeTables(place);
-  const std::string check = python + " " HALFSTEP_SOURCE_DIR "/tests/experiments/check_types.py " +
+  const std::string check = python + " " + InSources("tests/experiments/check_types.py ") +
                             place.path().string() + " >" + (place / "said").string() + " 2>&1";
   EXPECT_EQ(std::system(check.c_str()), 0) << ReadText(place / "said");
 }

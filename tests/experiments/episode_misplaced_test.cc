@@ -6,6 +6,7 @@
 #include "experiments/run/exit_status.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/run_check.h"
+#include "tests/places.h"
 #include "tests/temporary_folder.h"
 
 namespace halfstep {
@@ -33,7 +34,7 @@ TEST(EpisodeMisplaced, CommandsOfRunsNameThoseOfEpisodes) {
 
 TEST(EpisodeMisplaced, CommandsOfExperimentsNameTheOneOfEpisodes) {
   const TemporaryFolder place;
-  const std::string config = HALFSTEP_SOURCE_DIR "/experiments/episodes/live_bar.yaml";
+  const std::string config = InSources("experiments/episodes/live_bar.yaml");
   for (const std::string command : {"run", "plan"}) {
     const Outcome outcome = Halfstep(place.path(), {command, config});
     EXPECT_EQ(outcome.status, kBadInput);

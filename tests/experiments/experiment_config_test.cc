@@ -12,6 +12,7 @@
 #include "smoothing/methods/dichotomy.h"
 #include "smoothing/methods/solver_method_options.h"
 #include "tests/fixture_check.h"
+#include "tests/places.h"
 #include "tests/temporary_folder.h"
 #include "wpg/files/input_error.h"
 
@@ -20,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kConfigs = fs::path(HALFSTEP_SOURCE_DIR) / "experiments" / "configs";
+const fs::path kConfigs = InSources("experiments/configs");
 
 std::string Written(ExperimentConfig config) {
   return WriteYaml([&config](Fields& fields) { DeclareFields(fields, &config); });

@@ -14,6 +14,7 @@
 #include "experiments/config/key_tables.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/schema_check.h"
+#include "tests/places.h"
 #include "tests/temporary_folder.h"
 #include "wpg/files/yaml_node.h"
 
@@ -24,7 +25,7 @@ using nlohmann::json;
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
-const fs::path kSource = HALFSTEP_SOURCE_DIR;
+const fs::path kSource = InSources();
 
 YamlNode Parsed(const std::string& text) {
   YamlComplaints complaints("");

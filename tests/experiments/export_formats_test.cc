@@ -14,6 +14,7 @@
 #include "tests/experiments/made_once.h"
 #include "tests/experiments/parsed_csv.h"
 #include "tests/experiments/schema_check.h"
+#include "tests/places.h"
 #include "tests/temporary_folder.h"
 #include "wpg/files/yaml_node.h"
 #include "wpg/robot/robot_tree.h"
@@ -53,7 +54,7 @@ TEST_F(ExportFormats, NumpyReadsWhatTheCsvSaysToTheBit) {
   }
   ASSERT_EQ(Export({"npz", "--all-joints", "--waist", "quaternion"}).status, kSuccess);
   ASSERT_EQ(Export({"csv", "--all-joints", "--waist", "quaternion"}).status, kSuccess);
-  const std::string read = python + " " HALFSTEP_SOURCE_DIR "/tests/experiments/read_npz.py " +
+  const std::string read = python + " " + InSources("tests/experiments/read_npz.py ") +
                            (place_ / "run-npz/dichotomy.npz").string() + " " +
                            (place_ / "run-csv/dichotomy.csv").string() + " >" +
                            (place_ / "said").string() + " 2>&1";

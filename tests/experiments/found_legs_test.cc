@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "experiments/survey/robot_survey.h"
+#include "tests/places.h"
 #include "tests/refusal_of.h"
 #include "tests/replaced.h"
 #include "tests/temporary_folder.h"
@@ -25,7 +26,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
-const fs::path kDrawnRobots = fs::path(HALFSTEP_SOURCE_DIR) / "wpg" / "robots";
+const fs::path kDrawnRobots = InSources("wpg/robots");
 
 // One joint of a limb: where it is, seen from the one before, and about which axis it turns.
 struct Turn {

@@ -12,6 +12,7 @@
 #include "planner/scene/scene.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/parsed_csv.h"
+#include "tests/places.h"
 #include "tests/temporary_folder.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/text.h"
@@ -141,7 +142,7 @@ TEST(HostileNames, OfObstacles) {
 // HRP-2 with its right hip's joint and link under another name.
 std::string RenamedRobot(const TemporaryFolder& place, const Hostile& name) {
   fs::remove_all(place / "robots");
-  fs::copy(HALFSTEP_SOURCE_DIR "/wpg/robots", place / "robots", fs::copy_options::recursive);
+  fs::copy(InSources("wpg/robots"), place / "robots", fs::copy_options::recursive);
   const auto replace = [&](const std::string& file, const std::string& from,
                            const std::string& to) {
     std::string text = ReadText(place / "robots" / file);

@@ -12,6 +12,7 @@
 #include "smoothing/proof/missed_demands.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/run_check.h"
+#include "tests/places.h"
 #include "tests/temporary_folder.h"
 #include "tests/wpg/one_step.h"
 
@@ -101,7 +102,7 @@ TEST(RunCommand, AnInfeasiblePlanTellsHowMuchToCrouch) {
 
 // A plan misses a demand between the instants that are looked at, where the proof found it.
 TEST(RunCommand, AnInfeasiblePlanTellsWhatItMissesForAMoment) {
-  const RobotModel robot = LoadRobot(HALFSTEP_SOURCE_DIR "/wpg/robots/hrp2.yaml");
+  const RobotModel robot = LoadRobot(InSources("wpg/robots/hrp2.yaml"));
   const HalfStepSequence sequence = OneStep(robot);
   const SuperposedWalk walk(sequence, PlannedMotion(sequence));
   const MarginEvaluator evaluator(robot, Scene{}, MarginLimits{});

@@ -11,6 +11,7 @@
 #include "experiments/commands/commands.h"
 #include "experiments/report/report_page.h"
 #include "tests/experiments/child_process.h"
+#include "tests/places.h"
 #include "tests/temporary_folder.h"
 
 namespace halfstep {
@@ -27,8 +28,7 @@ class NotCoveredDoors : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     place_ = std::make_unique<TemporaryFolder>();
-    fs::copy(fs::path(HALFSTEP_SOURCE_DIR) / "wpg/robots", *place_ / "robots",
-             fs::copy_options::recursive);
+    fs::copy(InSources("wpg/robots"), *place_ / "robots", fs::copy_options::recursive);
     std::string urdf = ReadText(*place_ / "robots/hrp2.urdf");
     const std::string old = "ixx=\"";
     urdf.replace(urdf.find(old), old.size(), "ixx=\"1000");

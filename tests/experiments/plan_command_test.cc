@@ -9,6 +9,7 @@
 #include "planner/scene/scene.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/run_check.h"
+#include "tests/places.h"
 #include "tests/temporary_folder.h"
 
 namespace halfstep {
@@ -225,7 +226,7 @@ TEST(DrawCommand, DrawsTheSameSceneFromTheSameSeed) {
 }
 
 TEST(DrawCommand, TheShippedScenesAreThoseThatTheirFirstLineSays) {
-  const fs::path scenes = fs::path(HALFSTEP_SOURCE_DIR) / "experiments/scenes";
+  const fs::path scenes = InSources("experiments/scenes");
   EXPECT_EQ(ReadText(scenes / "cylinders.yaml"), DrawScene("cylinders", 40, 1));
   EXPECT_EQ(ReadText(scenes / "random_room.yaml"), DrawScene("random_room", 14, 1));
 }

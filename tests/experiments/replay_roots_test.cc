@@ -8,6 +8,7 @@
 
 #include "experiments/replay/mujoco_model.h"
 #include "experiments/replay/simulation.h"
+#include "tests/places.h"
 #include "tests/replaced.h"
 #include "tests/temporary_folder.h"
 #include "wpg/robot/robot_tree.h"
@@ -17,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kRobotFiles = fs::path(HALFSTEP_SOURCE_DIR) / "wpg" / "robots";
+const fs::path kRobotFiles = InSources("wpg/robots");
 
 // Wren, whose root is its waist, by another URDF and with another name of the waist.
 WholeRobot Wren(const std::string& urdf, const std::string& waist) {

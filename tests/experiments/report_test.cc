@@ -16,6 +16,7 @@
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/made_once.h"
 #include "tests/experiments/run_check.h"
+#include "tests/places.h"
 #include "tests/temporary_folder.h"
 
 namespace halfstep {
@@ -84,7 +85,7 @@ bool Joins(const DrawnRod& rod, const Eigen::Vector3d& from, const Eigen::Vector
 }
 
 TEST(DrawnRods, JoinWhatHangsOnLinksWithoutAShape) {
-  RobotModel robot = LoadRobot(HALFSTEP_SOURCE_DIR "/wpg/robots/hrp2.yaml");
+  RobotModel robot = LoadRobot(InSources("wpg/robots/hrp2.yaml"));
   const std::vector<DrawnRod> rods = DrawnRods(robot);
   // From the chest's joint to the neck's, which has no shape.
   const Eigen::Vector3d chest(0.032, 0, 0.3507), neck(0.025, 0, 0.648);
@@ -147,7 +148,7 @@ class ReportTest : public testing::Test {
   }
   // The same around an obstacle of another name, its scene beside it.
   std::string MakeRunAround(const std::string& obstacle) {
-    std::string scene = ReadText(HALFSTEP_SOURCE_DIR "/experiments/scenes/box.yaml");
+    std::string scene = ReadText(InSources("experiments/scenes/box.yaml"));
     scene.replace(scene.find("- name: box"), 11, "- name: " + json(obstacle).dump());
     WriteText(place_ / "box.yaml", scene);
     const Outcome outcome =

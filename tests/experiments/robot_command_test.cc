@@ -11,6 +11,7 @@
 #include "experiments/survey/support_search.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/run_check.h"
+#include "tests/places.h"
 #include "tests/replaced.h"
 #include "tests/temporary_folder.h"
 #include "tests/wpg/generated_robots.h"
@@ -25,7 +26,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::StartsWith;
 
-const fs::path kRobots = fs::path(HALFSTEP_SOURCE_DIR) / "wpg" / "robots";
+const fs::path kRobots = InSources("wpg/robots");
 
 TEST(RobotCommand, MakesARobotOfAUrdfThatWalksSixSteps) {
   const TemporaryFolder place;

@@ -9,6 +9,7 @@
 #include "experiments/commands/commands.h"
 #include "planner/scene/scene.h"
 #include "tests/experiments/child_process.h"
+#include "tests/places.h"
 #include "tests/replaced.h"
 #include "tests/temporary_folder.h"
 #include "wpg/files/input_error.h"
@@ -23,7 +24,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-const fs::path kScenery = fs::path(HALFSTEP_SOURCE_DIR) / "tests" / "fixtures" / "scenery";
+const fs::path kScenery = InSources("tests/fixtures/scenery");
 
 // Converts a fixture, or a file elsewhere, and reads what was written.
 struct Converted {

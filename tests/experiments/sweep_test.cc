@@ -15,6 +15,7 @@
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/run_check.h"
 #include "tests/fixture_check.h"
+#include "tests/places.h"
 #include "tests/temporary_folder.h"
 
 namespace halfstep {
@@ -31,7 +32,7 @@ TEST_P(RefusedSweep, SaysWhy) {
 INSTANTIATE_TEST_SUITE_P(Sweep, RefusedSweep, testing::ValuesIn(Fixtures("sweep")), FixtureName);
 
 std::string Shipped(const std::string& name) {
-  return HALFSTEP_SOURCE_DIR "/experiments/sweeps/" + name + ".yaml";
+  return InSources("experiments/sweeps/") + name + ".yaml";
 }
 
 TEST(SweepCases, AreAllCombinationsTheFirstKeySlowest) {

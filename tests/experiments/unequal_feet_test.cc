@@ -10,6 +10,7 @@
 #include "experiments/survey/robot_survey.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/run_check.h"
+#include "tests/places.h"
 #include "tests/replaced.h"
 #include "tests/temporary_folder.h"
 #include "tests/wpg/generated_robots.h"
@@ -23,7 +24,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-const fs::path kShipped = fs::path(HALFSTEP_SOURCE_DIR) / "wpg" / "robots";
+const fs::path kShipped = InSources("wpg/robots");
 
 // The URDF's text with `part` replaced after the joint of that name begins.
 std::string WithJoint(const std::string& urdf, const std::string& joint, const std::string& part,

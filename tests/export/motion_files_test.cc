@@ -17,6 +17,7 @@
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/parsed_csv.h"
 #include "tests/export/python_reader.h"
+#include "tests/places.h"
 #include "tests/temporary_folder.h"
 #include "wpg/nth.h"
 
@@ -26,7 +27,7 @@ namespace {
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
-const std::string kRobots = HALFSTEP_SOURCE_DIR "/wpg/robots/";
+const std::string kRobots = InSources("wpg/robots/");
 
 /// The arrays of an archive as NumPy read them.
 struct NumpyMotion {

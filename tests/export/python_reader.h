@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "tests/places.h"
 #include "tests/temporary_folder.h"
 
 namespace halfstep {
@@ -15,8 +16,7 @@ inline bool PythonHas(const std::string& module) {
 /// What read_motion.py says about files of a folder; "" when it has nothing to say against them.
 inline std::string ReadByPython(const TemporaryFolder& place, const std::string& arguments) {
   const std::string command = "cd " + place.path().string() + " && /usr/bin/python3 -B " +
-                              HALFSTEP_SOURCE_DIR "/tests/export/read_motion.py " + arguments +
-                              " >said 2>&1";
+                              InSources("tests/export/read_motion.py ") + arguments + " >said 2>&1";
   return std::system(command.c_str()) == 0 ? "" : ReadText(place / "said") + "\nfailed";
 }
 

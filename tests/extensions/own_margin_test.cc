@@ -16,6 +16,7 @@
 #include "smoothing/program/overlap_program.h"
 #include "smoothing/proof/certified_feasibility.h"
 #include "tests/extensions/com_speed.h"
+#include "tests/places.h"
 #include "wpg/files/input_error.h"
 
 namespace halfstep {
@@ -36,7 +37,7 @@ Methods WithComSpeed() {
 }
 
 ExperimentConfig Load(const std::vector<YamlOverride>& overrides, const Methods& methods) {
-  return LoadConfig(HALFSTEP_SOURCE_DIR "/experiments/configs/fig3_two_half_steps.yaml", overrides,
+  return LoadConfig(InSources("experiments/configs/fig3_two_half_steps.yaml"), overrides,
                     {methods});
 }
 

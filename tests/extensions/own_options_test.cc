@@ -16,6 +16,7 @@
 #include "experiments/verify/own_names.h"
 #include "smoothing/methods/dichotomy.h"
 #include "smoothing/methods/methods.h"
+#include "tests/places.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/regular_file.h"
 
@@ -26,7 +27,7 @@ using nlohmann::json;
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr char kConfig[] = HALFSTEP_SOURCE_DIR "/experiments/configs/fig3_two_half_steps.yaml";
+const std::string kConfig = InSources("experiments/configs/fig3_two_half_steps.yaml");
 
 struct PartOptions {
   double part = 0.25;  // of every natural bound

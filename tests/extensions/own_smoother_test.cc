@@ -20,6 +20,7 @@
 #include "smoothing/methods/run_smoother.h"
 #include "smoothing/methods/solver_method_options.h"
 #include "smoothing/proof/certified_feasibility.h"
+#include "tests/places.h"
 #include "tests/scenarios/load_experiment.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/regular_file.h"
@@ -194,7 +195,7 @@ TEST(OwnSmoother, ALieOrAnExceptionShowsInTheRunAndTheOthersAreWritten) {
                                     [](const WalkProblem&, SmoothingMonitor&) -> SmoothingResult {
                                       throw std::runtime_error("no more");
                                     }));
-  const std::string config = HALFSTEP_SOURCE_DIR "/experiments/configs/fig3_two_half_steps.yaml";
+  const std::string config = InSources("experiments/configs/fig3_two_half_steps.yaml");
   const RunHooks hooks{.progress = [](const std::string&, double) {}, .stop = {}};
   ExperimentRun run(
       LoadConfig(config, {{"smoothing.methods", "[mine/throws, mine/lies, mine/lax, dichotomy]"}},

@@ -15,6 +15,7 @@
 #include "smoothing/methods/solver_method_options.h"
 #include "smoothing/program/overlap_program.h"
 #include "smoothing/program/walk_cost.h"
+#include "tests/places.h"
 #include "tests/scenarios/load_experiment.h"
 #include "wpg/files/input_error.h"
 
@@ -40,7 +41,7 @@ class PlanAsItIs : public Smoother {
 
 ExperimentConfig WithOptions(const std::vector<YamlOverride>& overrides,
                              const Methods& methods = Methods::Standard()) {
-  return LoadConfig(HALFSTEP_SOURCE_DIR "/experiments/configs/fig3_two_half_steps.yaml", overrides,
+  return LoadConfig(InSources("experiments/configs/fig3_two_half_steps.yaml"), overrides,
                     {methods});
 }
 
@@ -136,7 +137,7 @@ TEST(OwnPlanner, IsNamedByConfigs) {
   EXPECT_THROW(planners.Make("mine/other", {}), std::logic_error);
   EXPECT_EQ(std::ranges::count(Planners::Standard().Names(), "mine/none"), 0);
 
-  const std::string config = HALFSTEP_SOURCE_DIR "/experiments/configs/plan_bar_8cm.yaml";
+  const std::string config = InSources("experiments/configs/plan_bar_8cm.yaml");
   const std::vector<YamlOverride> named = {{"planner.name", "mine/none"}};
   EXPECT_THROW(LoadConfig(config, named), InputError);
   const PlannerConfig planner = LoadConfig(config, named, {.planners = planners}).planner;

@@ -7,6 +7,7 @@
 #include <map>
 #include <string>
 
+#include "tests/places.h"
 #include "tests/temporary_folder.h"
 
 namespace halfstep {
@@ -41,7 +42,7 @@ struct ElfHeaders {
 };
 
 TEST(HardenedBinary, IsAsHALFSTEP_HARDENPromises) {
-  const std::string bytes = ReadText(HALFSTEP_COMMAND);
+  const std::string bytes = ReadText(CommandFile());
   if (!HALFSTEP_IS_HARDENED) GTEST_SKIP() << "not a Release build with HALFSTEP_HARDEN";
   if (bytes.compare(0, SELFMAG, ELFMAG) != 0 || bytes[EI_CLASS] != ELFCLASS64) {
     GTEST_SKIP() << "no 64-bit ELF file";

@@ -11,6 +11,7 @@
 #include "experiments/commands/commands.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/run_check.h"
+#include "tests/places.h"
 #include "tests/temporary_folder.h"
 #include "wpg/robot/robot_model.h"
 
@@ -79,7 +80,7 @@ TEST(StoppedCommand, RunAmongManyTrianglesEnds) {
 TEST(StoppedCommand, EveryCommandEndsAndLeavesWholeFiles) {
   const TemporaryFolder place;
   const std::string walk = ShippedConfig("bar_8cm");
-  const std::string robots = HALFSTEP_SOURCE_DIR "/wpg/robots/";
+  const std::string robots = InSources("wpg/robots/");
   ASSERT_EQ(Halfstep(place.path(), {"run", walk, "--out", "a", "--quiet"}).status, kSuccess);
   const std::string cache = "swept_volumes.cache=" + (place / "cache").string();
   WriteText(place / "sweep.yaml",

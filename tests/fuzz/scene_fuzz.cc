@@ -2,11 +2,12 @@
 
 #include "planner/scene/scene.h"
 #include "tests/fuzz/fuzz.h"
+#include "tests/places.h"
 
 using namespace halfstep;
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  static const std::string folder = HALFSTEP_SOURCE_DIR "/tests/fixtures/mesh/good/";
+  static const std::string folder = InSources("tests/fixtures/mesh/good/");
   Scene scene;
   const std::string text = fuzz::Text(data, size);
   if (!fuzz::Reads("", [&] { scene = ParseScene(folder + "fuzz.yaml", text); })) return 0;

@@ -2,11 +2,12 @@
 
 #include "experiments/sweep/sweep_config.h"
 #include "tests/fuzz/fuzz.h"
+#include "tests/places.h"
 
 using namespace halfstep;
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  static const std::string path = HALFSTEP_SOURCE_DIR "/experiments/sweeps/fuzz.yaml";
+  static const std::string path = InSources("experiments/sweeps/fuzz.yaml");
   SweepConfig sweep;
   const std::string text = fuzz::Text(data, size);
   if (!fuzz::Reads(path, [&] { sweep = ParseSweep(path, text, {}, /*check=*/false); })) return 0;

@@ -9,11 +9,12 @@
 #include "experiments/verify/played_motion.h"
 #include "tests/fuzz/files.h"
 #include "tests/fuzz/fuzz.h"
+#include "tests/places.h"
 
 using namespace halfstep;
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  static const RobotModel robot = LoadRobot(HALFSTEP_SOURCE_DIR "/wpg/robots/hrp2.yaml");
+  static const RobotModel robot = LoadRobot(InSources("wpg/robots/hrp2.yaml"));
   auto files = fuzz::Files(fuzz::Text(data, size));
   const std::string& trajectory = files["trajectory.csv"];
   fuzz::Reads("trajectory.csv", [&] {

@@ -8,6 +8,7 @@
 #include "experiments/live/spare_boxes.h"
 #include "experiments/live/true_world.h"
 #include "tests/fixture_check.h"
+#include "tests/places.h"
 
 namespace halfstep {
 namespace {
@@ -28,7 +29,7 @@ INSTANTIATE_TEST_SUITE_P(Fixtures, EpisodeThatDoesNotFit, testing::ValuesIn(Fixt
                          FixtureName);
 
 TEST(LiveConfig, TheShippedEpisodesAreRead) {
-  for (const auto& path : YamlFiles(HALFSTEP_SOURCE_DIR "/experiments/episodes")) {
+  for (const auto& path : YamlFiles(InSources("experiments/episodes"))) {
     const LiveConfig config = LoadLiveConfig(path.string(), {});
     const Place place = LoadPlace(config.experiment);
     EXPECT_NO_THROW(TrueWorld(place.scene, config.experiment.goal, config.live)) << path;
@@ -36,7 +37,7 @@ TEST(LiveConfig, TheShippedEpisodesAreRead) {
 }
 
 TEST(LiveConfig, IsReadBackAsItIsWritten) {
-  for (const auto& path : YamlFiles(HALFSTEP_SOURCE_DIR "/experiments/episodes")) {
+  for (const auto& path : YamlFiles(InSources("experiments/episodes"))) {
     LiveConfig config = LoadLiveConfig(path.string(), {});
     const auto text = [](LiveConfig* c) {
       return WriteYaml([c](Fields& fields) { DeclareFields(fields, c); });

@@ -12,11 +12,12 @@
 #include "experiments/live/live_config.h"
 #include "experiments/live/replanner.h"
 #include "experiments/run/planning.h"
+#include "tests/places.h"
 
 namespace halfstep {
 
 /// The config of the small world.
-inline constexpr char kSmallConfig[] =
+inline const std::string kSmallConfig =
     "robot: hrp2\n"
     "scene: none\n"
     "goal: {x_m: 1.2, y_m: 0, radius_m: 0.15}\n"
@@ -25,8 +26,9 @@ inline constexpr char kSmallConfig[] =
     "step_set: {x_min_m: -0.1, x_max_m: 0.2, y_min_m: -0.29, y_max_m: -0.21,\n"
     "           spacing_m: 0.08, yaws_rad: [-0.25, 0, 0.25]}\n"
     "swept_volumes: {cell_m: 0.03, displacement_m: 0.02,\n"
-    "                cache: " HALFSTEP_BINARY_DIR
-    "/swept_volumes_of_tests}\n"
+    "                cache: " +
+    InBuild("swept_volumes_of_tests") +
+    "}\n"
     "planner: {unimproved_nodes: 100, max_nodes: 2000}\n"
     "live: {smooth_ahead: 4, tolerance_s: 0.1, longest_s: 60}\n";
 

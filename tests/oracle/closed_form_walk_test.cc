@@ -7,6 +7,7 @@
 #include "tests/oracle/nasty_draws.h"
 #include "tests/oracle/project_side.h"
 #include "tests/oracle/rest_to_rest_closed_form.h"
+#include "tests/places.h"
 
 namespace halfstep::oracle {
 namespace {
@@ -36,7 +37,7 @@ TEST(RestToRestClosedFormTest, KeepsTheLipmAndItsEnds) {
 }
 
 TEST(ClosedFormWalkTest, AgreesWithTheProject) {
-  const PlainRobot robot(HALFSTEP_SOURCE_DIR "/wpg/robots/hrp2.yaml");
+  const PlainRobot robot(InSources("wpg/robots/hrp2.yaml"));
   for (unsigned seed = 0; seed < 46; ++seed) {  // with rests among them; the last 16 over levels
     Draw draw(seed);
     WalkPlan plan;

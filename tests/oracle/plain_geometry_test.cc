@@ -14,6 +14,7 @@
 #include "tests/oracle/plain_scene.h"
 #include "tests/oracle/plain_soles.h"
 #include "tests/oracle/walk_truth.h"
+#include "tests/places.h"
 
 namespace halfstep::oracle {
 namespace {
@@ -174,7 +175,7 @@ TEST(PlainSceneTest, KnowsInsideFromOutside) {
   Draw draw(7);
   PlainScene scene;
   for (const SceneKind kind : {SceneKind::kClosedMeshes, SceneKind::kNested}) {
-    const PlainRobot robot(HALFSTEP_SOURCE_DIR "/wpg/robots/hrp2.yaml");
+    const PlainRobot robot(InSources("wpg/robots/hrp2.yaml"));
     const WalkPlan plan = DrawPlan(robot, &draw);
     for (const PlainObstacle& o : DrawNastyScene(kind, plan, robot.size(), &draw).obstacles) {
       scene.obstacles.push_back(o);

@@ -12,6 +12,7 @@
 #include "tests/oracle/nasty_draws.h"
 #include "tests/oracle/plain_dynamics.h"
 #include "tests/oracle/plain_robot.h"
+#include "tests/places.h"
 #include "tests/wpg/shipped_robots.h"
 #include "wpg/robot/robot_model.h"
 
@@ -20,7 +21,7 @@ namespace {
 
 class PlainRobotTest : public testing::TestWithParam<std::string> {
  protected:
-  const std::string path_ = HALFSTEP_SOURCE_DIR "/wpg/robots/" + GetParam() + ".yaml";
+  const std::string path_ = InSources("wpg/robots/") + GetParam() + ".yaml";
 };
 INSTANTIATE_TEST_SUITE_P(Robots, PlainRobotTest, testing::ValuesIn(kShippedRobots),
                          [](const auto& info) { return info.param; });

@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "tests/oracle/plain_files.h"
+#include "tests/places.h"
 #include "wpg/motion/lipm.h"
 
 namespace halfstep::oracle {
@@ -81,7 +82,7 @@ Tube ToTube(const PlainTube& tube) {
 }
 
 std::string WriteJudgedRobot(const std::string& name, const std::string& folder) {
-  const std::filesystem::path robots = HALFSTEP_SOURCE_DIR "/wpg/robots", into = folder;
+  const std::filesystem::path robots = InSources("wpg/robots"), into = folder;
   for (const std::string& part : {name, name + ".urdf"}) {
     std::filesystem::create_symlink(robots / part, into / part);
   }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tests/oracle/rounding_draws.h"
+#include "tests/places.h"
 #include "tests/wpg/shipped_robots.h"
 
 namespace halfstep::oracle {
@@ -39,7 +40,7 @@ TEST(RoundingTest, OfForms) {
 TEST(RoundingTest, OfWalks) {
   RoundingTally tally;
   for (const std::string& robot : kShippedRobots) {
-    DrawWalks(HALFSTEP_SOURCE_DIR "/wpg/robots/" + robot + ".yaml", 2000, 0, 2, &tally);
+    DrawWalks(InSources("wpg/robots/") + robot + ".yaml", 2000, 0, 2, &tally);
   }
   DrawWalks(kHrp2, 200, 100, 3, &tally);
   Expect(tally, {"walk yaw", "walk yaw'", "walk yaw''"});

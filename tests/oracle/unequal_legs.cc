@@ -14,6 +14,7 @@
 #include "tests/oracle/plain_files.h"
 #include "tests/oracle/plain_robot.h"
 #include "tests/oracle/project_side.h"
+#include "tests/places.h"
 
 namespace halfstep::oracle {
 namespace {
@@ -106,7 +107,7 @@ class Rewriter {
     std::filesystem::remove(bodies);
     std::filesystem::create_directory(bodies);
     for (const auto& entry :
-         std::filesystem::directory_iterator(HALFSTEP_SOURCE_DIR "/wpg/robots/" + name_)) {
+         std::filesystem::directory_iterator(InSources("wpg/robots/") + name_)) {
       std::filesystem::create_symlink(entry.path(), bodies / entry.path().filename());
     }
   }
@@ -311,7 +312,7 @@ std::string WriteUnequalRobot(const std::string& name, const UnequalLegs& drawn,
 
 std::string StudiedRobot(const std::string& name, const std::string& folder) {
   const size_t dash = name.find('-');
-  if (dash == std::string::npos) return HALFSTEP_SOURCE_DIR "/wpg/robots/" + name + ".yaml";
+  if (dash == std::string::npos) return InSources("wpg/robots/") + name + ".yaml";
   const bool offset = name.substr(dash) == "-offset";
   return WriteUnequalRobot(name.substr(0, dash), {.seed = 1, .offset = offset}, folder);
 }

@@ -7,6 +7,7 @@
 
 #include "planner/ground/heightmap.h"
 #include "planner/scene/scene.h"
+#include "tests/places.h"
 #include "tests/temporary_folder.h"
 #include "wpg/files/input_error.h"
 
@@ -117,7 +118,7 @@ TEST(GroundOfScenes, WhatIsOnNoLevelIsSolidAndBearsNothing) {
 
 // The same steps as PGM and as PNG of 8 and 16 bits (drawn by steps.py beside them).
 TEST(GroundOfScenes, PngAndPgmAreReadAlike) {
-  const std::string folder = HALFSTEP_SOURCE_DIR "/tests/fixtures/scene";
+  const std::string folder = InSources("tests/fixtures/scene");
   const auto load = [&](const std::string& file) { return LoadGreyImage(folder + "/" + file); };
   const GreyImage pgm = load("steps.pgm"), png = load("steps8.png"), deep = load("steps16.png");
   EXPECT_EQ(pgm.pixels, png.pixels);
@@ -129,7 +130,7 @@ TEST(GroundOfScenes, PngAndPgmAreReadAlike) {
 }
 
 TEST(GroundOfScenes, ImagesThatAreNoneAreRefused) {
-  const std::string path = std::string(HALFSTEP_SOURCE_DIR) + "/tests/fixtures/scene/steps8.png";
+  const std::string path = InSources("tests/fixtures/scene/steps8.png");
   std::ifstream file(path, std::ios::binary);
   const std::string png((std::istreambuf_iterator<char>(file)), {});
   const auto refusal = [](const std::string& bytes) -> std::string {
@@ -182,7 +183,7 @@ TEST(GroundOfScenes, LevelsOfAMeshBearAndTheRestStaysInTheWay) {
 TEST(GroundOfScenes, ScenesThatAreShippedHaveTheLevelsThatTheyShow) {
   const auto heights = [](const std::string& name) {
     std::vector<double> all;
-    const Scene scene = LoadScene(HALFSTEP_SOURCE_DIR "/experiments/scenes/" + name + ".yaml");
+    const Scene scene = LoadScene(InSources("experiments/scenes/") + name + ".yaml");
     for (const GroundLevel& level : scene.ground->Levels()) all.push_back(level.height);
     return all;
   };

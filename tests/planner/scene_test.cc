@@ -14,6 +14,7 @@
 
 #include "planner/collision/separation.h"
 #include "tests/fixture_check.h"
+#include "tests/places.h"
 #include "wpg/files/input_error.h"
 #include "wpg/geometry/simple_polygon.h"
 
@@ -93,7 +94,7 @@ std::string BallOfPoints() {
 
 // What another program shows upright would lie on its side without a word.
 TEST_F(SceneTest, WhatADaeCallsUpIsToldAndAppliedWhenAsked) {
-  std::ifstream file(HALFSTEP_SOURCE_DIR "/tests/fixtures/mesh/good/cube_triangles.dae");
+  std::ifstream file(InSources("tests/fixtures/mesh/good/cube_triangles.dae"));
   std::string dae((std::istreambuf_iterator<char>(file)), {});
   dae.insert(dae.find('>', dae.find("<COLLADA")) + 1, "<asset><up_axis>Y_UP</up_axis></asset>");
   Write("cube.dae", dae);

@@ -9,6 +9,7 @@
 #include "planner/swept/swept_volume.h"
 #include "planner/swept/swept_volume_bake.h"
 #include "planner/swept/swept_volume_query.h"
+#include "tests/places.h"
 #include "wpg/motion/half_step_tracks.h"
 #include "wpg/motion/lipm.h"
 #include "wpg/motion/posture.h"
@@ -17,7 +18,7 @@
 namespace halfstep {
 
 inline const RobotModel& SweptRobot() {
-  static const RobotModel robot = LoadRobot(HALFSTEP_SOURCE_DIR "/wpg/robots/hrp2.yaml");
+  static const RobotModel robot = LoadRobot(InSources("wpg/robots/hrp2.yaml"));
   return robot;
 }
 inline Lipm LipmOf(const RobotModel& robot) { return Lipm(robot.com_height); }

@@ -16,6 +16,7 @@
 #include "smoothing/methods/pareto.h"
 #include "smoothing/methods/solver_method_options.h"
 #include "smoothing/proof/certified_feasibility.h"
+#include "tests/places.h"
 #include "tests/scenarios/load_experiment.h"
 #include "tests/smoothing/fake_feasibility.h"
 #include "tests/smoothing/smoothed.h"
@@ -156,7 +157,7 @@ struct SmoothedFixture {
   SmoothingResult result;
 
   explicit SmoothedFixture(const std::string& name)
-      : e(Prepare(LoadConfig(HALFSTEP_SOURCE_DIR "/tests/fixtures/walk/" + name + ".yaml", {}))) {
+      : e(Prepare(LoadConfig(InSources("tests/fixtures/walk/") + name + ".yaml", {}))) {
     OptimizerOptions options = e.config.smoothing.options.Get(OptimizerGroup()).options;
     options.solver = "halfstep/sqp";
     options.effort = 20.0;

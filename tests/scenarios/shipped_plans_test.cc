@@ -4,6 +4,7 @@
 
 #include "experiments/config/data_folder.h"
 #include "smoothing/proof/certified_feasibility.h"
+#include "tests/places.h"
 #include "tests/scenarios/load_experiment.h"
 #include "tests/temporary_folder.h"
 
@@ -12,7 +13,7 @@ namespace {
 
 std::vector<std::string> ShippedPlans() {
   std::vector<std::string> names;
-  for (const std::filesystem::path& path : YamlFiles(HALFSTEP_SOURCE_DIR "/experiments/configs")) {
+  for (const std::filesystem::path& path : YamlFiles(InSources("experiments/configs"))) {
     // Asked of the text: every test of this program lists these names when it begins.
     // As planned a shin of stairs_15cm meets the next tread, as the config says.
     if (path.stem() == "stairs_15cm") continue;

@@ -73,7 +73,7 @@ TEST_P(SmoothedScene, KeepsEveryMarginBetweenTheInstantsThatWereChecked) {
   const MarginEvaluator evaluator(e.robot, e.scene, e.config.smoothing.limits);
   MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
   const SuperposedWalk walk(e.sequence, result.parameters);
-  const double period = kSanitized ? 0.002 : 0.0002;
+  const double period = kFewDraws ? 0.002 : 0.0002;
   double worst = 0;
   for (const Margin& margin : SampleMargins(evaluator, walk, period, &scratch)) {
     EXPECT_GE(margin.value, 0.0) << evaluator.Describe(margin);

@@ -11,6 +11,7 @@
 
 #include "smoothing/methods/dichotomy.h"
 #include "smoothing/proof/certified_feasibility.h"
+#include "tests/places.h"
 #include "tests/scenarios/load_experiment.h"
 #include "tests/smoothing/smoothed.h"
 #include "tests/smoothing/tube_cases.h"
@@ -31,7 +32,7 @@ class WalkInItsTube {
  public:
   explicit WalkInItsTube(const ReplayedTube& of)
       : experiment_(Prepare(LoadConfig(
-            std::string(HALFSTEP_SOURCE_DIR "/experiments/configs/") + of.config + ".yaml",
+            InSources("experiments/configs/") + of.config + ".yaml",
             {{"smoothing.margins.clearance_m", "0"}, {"smoothing.margins.floor_m", "0"}}))),
         tube_(of.tube),
         limits_(experiment_.config.smoothing.limits) {

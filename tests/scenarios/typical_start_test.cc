@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "smoothing/walk/parameter_complaint.h"
+#include "tests/places.h"
 #include "tests/scenarios/load_experiment.h"
 
 namespace halfstep {
@@ -86,7 +87,7 @@ TEST_F(TypicalStartTest, StepsHaveTheirForms) {
 
 // What notebooks-data/typical_forms.py measured is what searches begin with.
 TEST(TypicalForms, AreThoseThatWereMeasured) {
-  std::ifstream table(HALFSTEP_SOURCE_DIR "/notebooks-data/drawn_walks/typical_forms.csv");
+  std::ifstream table(InSources("notebooks-data/drawn_walks/typical_forms.csv"));
   std::string line, cell;
   ASSERT_TRUE(std::getline(table, line));  // its header
   for (const TypicalForm& form : TypicalForms()) {

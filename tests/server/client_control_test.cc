@@ -16,6 +16,7 @@
 #include "experiments/server/server.h"
 #include "tests/experiments/child_process.h"
 #include "tests/live/small_files.h"
+#include "tests/places.h"
 #include "tests/server/test_client.h"
 #include "tests/temporary_folder.h"
 #include "wpg/files/input_error.h"
@@ -209,9 +210,9 @@ TEST_F(ControlledEpisode, TheClientThatIsShippedPullsJointsToTheirPlan) {
   const auto joints_off = [this](const std::string& gain) {
     Begin({"--json"});
     Connected();
-    const std::string command =
-        "python3 " HALFSTEP_SOURCE_DIR "/experiments/server/controller.py " +
-        (place_ / "walk.sock").string() + " " + gain + " > " + (place_ / "python.txt").string();
+    const std::string command = "python3 " + InSources("experiments/server/controller.py ") +
+                                (place_ / "walk.sock").string() + " " + gain + " > " +
+                                (place_ / "python.txt").string();
     EXPECT_EQ(std::system(command.c_str()), 0);
     EXPECT_THAT(ReadText(place_ / "python.txt"), HasSubstr("controls hrp2 on servos of 10000.0"));
     EXPECT_THAT(ReadText(place_ / "python.txt"), HasSubstr("arrived; the record is in "));

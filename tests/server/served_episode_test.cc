@@ -16,6 +16,7 @@
 #include "experiments/server/server.h"
 #include "tests/experiments/child_process.h"
 #include "tests/live/small_files.h"
+#include "tests/places.h"
 #include "tests/server/test_client.h"
 #include "tests/temporary_folder.h"
 
@@ -341,7 +342,7 @@ TEST(ServedEpisode, ClientsMayMeasureInPlaceOfTheStandIn) {
     client.SendLine({{"type", "measured"}, {"age_s", 600.0}, {"obstacles", {bar}}});
     EXPECT_LT(client.ReadUntil("world")["measured_s"], -500.0);
   }
-  const std::string command = "python3 " HALFSTEP_SOURCE_DIR "/experiments/server/client.py " +
+  const std::string command = "python3 " + InSources("experiments/server/client.py ") +
                               (served.place() / "walk.sock").string() + " bar=0.75,2,0.02 > " +
                               (served.place() / "python.txt").string();
   EXPECT_EQ(std::system(command.c_str()), 0);

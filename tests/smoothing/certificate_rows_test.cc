@@ -114,7 +114,7 @@ TEST(CertificateRows, HoldInsideWholeCertificates) {
     if (family == MarginFamily::kDoubleSupport) continue;  // it does not change
     // So near that half a bound, or a term forgotten, would show. The legs' inertia has its bound
     // by norms, whose parts have a test of their own (LegDrift).
-    const double share = kSanitized ? 0.3 : IsOfDynamics(family) ? 0.3 : 0.7;
+    const double share = kFewDraws ? 0.3 : IsOfDynamics(family) ? 0.3 : 0.7;
     EXPECT_GT(tally.share[static_cast<size_t>(family)], share) << Name(family);
   }
 }
@@ -185,7 +185,7 @@ TEST(CertificateRows, HoldForEveryBodyThatMovesTowardsAnObstacle) {
     }
   }
   for (size_t b = 0; b < robot.bodies.size(); ++b) {
-    EXPECT_GT(share[b], kSanitized ? 0.3 : 0.6) << robot.bodies[b].name;
+    EXPECT_GT(share[b], kFewDraws ? 0.3 : 0.6) << robot.bodies[b].name;
   }
 }
 
@@ -215,7 +215,7 @@ TEST(CertificateRows, HoldForEveryPairOfBodies) {
       }
     }
   }
-  EXPECT_GT(tally.share[static_cast<size_t>(MarginFamily::kSelfClearance)], kSanitized ? 0.7 : 0.9);
+  EXPECT_GT(tally.share[static_cast<size_t>(MarginFamily::kSelfClearance)], kFewDraws ? 0.7 : 0.9);
 }
 
 // Position and speed of each joint by itself: the others have no limits.
@@ -267,8 +267,8 @@ TEST(CertificateRows, HoldForEveryJoint) {
     }
   }
   for (size_t joint = 0; joint < 12; ++joint) {
-    EXPECT_GT(angle[joint], kSanitized ? 0.3 : 0.9) << joint;
-    EXPECT_GT(speed[joint], kSanitized ? 0.05 : 0.2) << joint;
+    EXPECT_GT(angle[joint], kFewDraws ? 0.3 : 0.9) << joint;
+    EXPECT_GT(speed[joint], kFewDraws ? 0.05 : 0.2) << joint;
   }
 }
 

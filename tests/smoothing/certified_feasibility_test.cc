@@ -145,7 +145,7 @@ TEST(CertifiedFeasibility, IsNeverContradictedBySampling) {
     ++walks;
     const SuperposedWalk walk(drawn->sequence, drawn->parameters);
     const Verdict verdict = Certified(robot, drawn->scene, {}, walk).verdict;
-    const double period = kSanitized ? 1e-2 : 1e-3;
+    const double period = kFewDraws ? 1e-2 : 1e-3;
     const Verdict sampled = Sampled(robot, drawn->scene, {}, walk, period).verdict;
     certified += verdict == Verdict::kFeasible;
     if (verdict == Verdict::kFeasible) {

@@ -101,7 +101,7 @@ TEST(DoubleSupportMargin, BoundsHowLongBothFeetStand) {
       EXPECT_FALSE(walk.InAir(walk.Locate(middle), Opposite(foot)));
     }
   }
-  EXPECT_LT(nearest, kSanitized ? 5e-2 : 5e-3) << "the bound is met nearly";
+  EXPECT_LT(nearest, kFewDraws ? 5e-2 : 5e-3) << "the bound is met nearly";
   // Of equal half-steps at their natural bounds it is met.
   const HalfStepSequence sequence = TwoSteps(Hrp2());
   const HomotopyParameters closest = Overlapped(sequence, 1.0);

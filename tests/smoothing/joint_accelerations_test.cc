@@ -220,7 +220,7 @@ TEST(JointAccelerationMargin, IsNeverBelowWhatIsProvedOnRandomIntervals) {
     EXPECT_LT(excess, 0.0) << plain.name;
     RecordProperty(plain.name + "_nearest_percent", static_cast<int>(100 * nearest));
     // By norms: half of a bound, or a term forgotten, shows.
-    EXPECT_GT(nearest, kSanitized ? 0.2 : 0.5) << plain.name;
+    EXPECT_GT(nearest, kFewDraws ? 0.2 : 0.5) << plain.name;
   }
 }
 

@@ -149,13 +149,13 @@ TEST(OnLevels, SparseMotionsKeepEveryBound) {
     for (const auto& [what, part] : tally.parts) {
       EXPECT_GT(part.compared, Draws(800) / 8) << robot.name << ": " << what;
       if (what.starts_with("control")) {
-        if (!kSanitized) {
+        if (!kFewDraws) {
           EXPECT_GT(part.excess, 1.0) << robot.name << ": " << what;
         }
         continue;
       }
       EXPECT_LT(part.excess, 1.0) << robot.name << ": " << what;
-      if (kSanitized) continue;  // few draws come near to nothing
+      if (kFewDraws) continue;  // few draws come near to nothing
       EXPECT_GT(part.nearest, 0.8) << robot.name << ": " << what;
     }
   }

@@ -153,7 +153,7 @@ TEST(WalksOnLevels, KeepWhatIsClaimedOfIntervals) {
     for (const MarginFamily family : kOfContact) {
       if (family == MarginFamily::kTorque && std::string(name) == "hrp2") continue;  // no limits
       EXPECT_GT(claims[family], Draws(40)) << name << ": " << Name(family);
-      EXPECT_GT(share[family], kSanitized ? 0.2 : 0.4) << name << ": " << Name(family);
+      EXPECT_GT(share[family], kFewDraws ? 0.2 : 0.4) << name << ": " << Name(family);
       EXPECT_LE(share[family], 1.0) << name << ": " << Name(family);
     }
     EXPECT_GT(without_heights, 0.01 * LegScale(robot)) << name;

@@ -301,8 +301,8 @@ TEST(TorqueDrift, AndThatOfFrictionAreNeverExceededOnRandomIntervals) {
       RecordProperty(robot.name + "_friction_nearest_percent_" + std::to_string(which),
                      static_cast<int>(100 * friction_nearest[which]));
       // By norms, but for what weights do: half of a bound, or a term forgotten, shows.
-      EXPECT_GT(nearest[which], kSanitized ? 0.2 : 0.4) << robot.name;
-      EXPECT_GT(friction_nearest[which], kSanitized ? 0.1 : 0.15) << robot.name;
+      EXPECT_GT(nearest[which], kFewDraws ? 0.2 : 0.4) << robot.name;
+      EXPECT_GT(friction_nearest[which], kFewDraws ? 0.1 : 0.15) << robot.name;
     }
   }
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "smoothing/walk/superposed_walk.h"
+#include "tests/places.h"
 #include "tests/smoothing/test_walks.h"
 #include "tests/wpg/generated_robots.h"
 #include "tests/wpg/shipped_robots.h"
@@ -19,7 +20,7 @@ namespace halfstep {
 inline std::vector<WholeRobot> WholeRobots() {
   std::vector<WholeRobot> robots;
   for (const std::string& name : kShippedRobots) {
-    robots.push_back(LoadWholeRobot(HALFSTEP_SOURCE_DIR "/wpg/robots/" + name + ".yaml"));
+    robots.push_back(LoadWholeRobot(InSources("wpg/robots/") + name + ".yaml"));
   }
   for (const GeneratedRobot& robot : {GeneratedRobots()[2], OffsetRobots()[0], OffsetRobots()[2]}) {
     robots.push_back(LoadWholeRobot(TemporaryRobot(robot).yaml_path()));

@@ -23,8 +23,8 @@ namespace halfstep {
 namespace {
 
 constexpr double kShort = 1e-4;  // [s]
-constexpr int kWalks = kSanitized ? 40 : 200;
-constexpr double kTight = kSanitized ? 0.8 : 0.95;
+const int kWalks = kFewDraws ? 40 : 200;
+const double kTight = kFewDraws ? 0.8 : 0.95;
 constexpr double kWeight = 9.81;  // [N/kg]
 
 // An interval of a walk with its bounds, and the dynamics at its middle and both ends.

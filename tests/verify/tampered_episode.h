@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "tests/places.h"
 #include "tests/temporary_folder.h"
 #include "tests/verify/verified_here.h"
 #include "wpg/files/sha256.h"
@@ -42,11 +43,10 @@ inline constexpr char kEpisodeConfig[] =
 class TamperedEpisode {
  public:
   TamperedEpisode() {
-    const std::string build = std::to_string(
-        std::filesystem::last_write_time(HALFSTEP_COMMAND).time_since_epoch().count());
+    const std::string build =
+        std::to_string(std::filesystem::last_write_time(CommandFile()).time_since_epoch().count());
     const std::filesystem::path made =
-        std::filesystem::path(HALFSTEP_BINARY_DIR) /
-        ("verify_episode_" + Sha256(build + kEpisodeScene + kEpisodeConfig).substr(0, 16));
+        InBuild("verify_episode_") + Sha256(build + kEpisodeScene + kEpisodeConfig).substr(0, 16);
     if (!std::filesystem::exists(made)) {
       const std::filesystem::path mine = made.string() + "." + std::to_string(getpid());
       Make(mine);
@@ -77,8 +77,8 @@ class TamperedEpisode {
  private:
   static void Make(const std::filesystem::path& place) {
     std::filesystem::create_directories(place / "walk");
-    std::filesystem::copy(std::filesystem::path(HALFSTEP_SOURCE_DIR) / "wpg/robots",
-                          place / "robots", std::filesystem::copy_options::recursive);
+    std::filesystem::copy(InSources("wpg/robots"), place / "robots",
+                          std::filesystem::copy_options::recursive);
     WriteText(place / "walk/scene.yaml", kEpisodeScene);
     WriteText(place / "walk/walk.yaml", kEpisodeConfig);
     const Outcome outcome =

@@ -6,6 +6,7 @@
 
 #include "experiments/tables/run_inputs.h"
 #include "experiments/verify/verify_run.h"
+#include "tests/places.h"
 #include "tests/verify/tampered_episode.h"
 #include "tests/verify/verify_mutation.h"
 
@@ -19,8 +20,7 @@ using testing::HasSubstr;
 // robot by the name of HRP-2 is another one.
 Outcome VerifiedElsewhere(const fs::path& folder) {
   const TemporaryFolder data, somewhere;
-  fs::copy(fs::path(HALFSTEP_SOURCE_DIR) / "wpg/robots", data / "robots",
-           fs::copy_options::recursive);
+  fs::copy(InSources("wpg/robots"), data / "robots", fs::copy_options::recursive);
   TamperedRun::Replace(data / "robots/hrp2.yaml", "RLEG_JOINT3: [2, 150]", "RLEG_JOINT3: [3, 149]");
   Child child({"verify", folder.string()},
               {.working_directory = somewhere.path(),
@@ -31,7 +31,7 @@ Outcome VerifiedElsewhere(const fs::path& folder) {
 // A run of a shipped robot and scene, made where only these are.
 fs::path MakeRun(const fs::path& place, const std::vector<std::string>& sets = {}) {
   std::vector<std::string> arguments = {"run",
-                                        HALFSTEP_SOURCE_DIR "/experiments/configs/fig5_box.yaml",
+                                        InSources("experiments/configs/fig5_box.yaml"),
                                         "--quiet",
                                         "--out",
                                         "run",
@@ -87,7 +87,7 @@ TEST(Identity, ThePlaceThatACertificateNamesIsNotWhatItIsAbout) {
 // A scene that is too large is not taken in; it is found by its hash where it was.
 TEST(Identity, WhatIsNowhereIsNotFoundAndNoForgery) {
   const TemporaryFolder place;
-  const std::string scene = ReadText(HALFSTEP_SOURCE_DIR "/experiments/scenes/box.yaml");
+  const std::string scene = ReadText(InSources("experiments/scenes/box.yaml"));
   std::string mesh =
       "v 1 2 0\nv 1.1 2 0\nv 1 2.1 0\nv 1 2 0.1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
   mesh.append(kMostInputBytes, '#');

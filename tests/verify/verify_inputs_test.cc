@@ -7,6 +7,7 @@
 #include "experiments/run/complete_manifest.h"
 #include "experiments/run/experiment_run.h"
 #include "experiments/verify/verify_run.h"
+#include "tests/places.h"
 #include "tests/temporary_folder.h"
 #include "wpg/files/sha256.h"
 
@@ -17,7 +18,7 @@ namespace fs = std::filesystem;
 
 struct CopiedConfig {
   CopiedConfig() {
-    const fs::path source(HALFSTEP_SOURCE_DIR);
+    const fs::path source(InSources());
     for (const char* file : {"configs/fig5_box.yaml", "scenes/box.yaml"}) {
       WriteText(folder / file, ReadText(source / "experiments" / file));
     }
@@ -57,7 +58,7 @@ TEST(InputFiles, SceneEditedDuringARunIsNotTheOneOfTheCertificate) {
 }
 
 TEST(InputFiles, MeshesAndUrdfCountWithTheirNamesAndLengths) {
-  const RobotModel robot = LoadRobot(HALFSTEP_SOURCE_DIR "/wpg/robots/hrp2.yaml");
+  const RobotModel robot = LoadRobot(InSources("wpg/robots/hrp2.yaml"));
   ASSERT_GT(robot.files.size(), 2u);
   EXPECT_EQ(robot.files[0].name, "hrp2.yaml");
   EXPECT_EQ(robot.files[1].name, "hrp2.urdf");

@@ -8,6 +8,7 @@
 #include "experiments/verify/robot_numbers.h"
 #include "experiments/verify/robot_posture.h"
 #include "experiments/verify/sole_polygon.h"
+#include "tests/places.h"
 #include "tests/verify/plan_of.h"
 #include "wpg/geometry/support_polygon.h"
 #include "wpg/motion/half_step_tracks.h"
@@ -141,7 +142,7 @@ RobotModel WithOffsets(RobotModel robot) {
 TEST(RobotPosture, AnglesAreThoseOfTheProgram) {
   std::mt19937 random(3);
   const auto load = [](const char* name) {
-    return LoadRobot(HALFSTEP_SOURCE_DIR "/wpg/robots/" + std::string(name) + ".yaml");
+    return LoadRobot(InSources("wpg/robots/") + std::string(name) + ".yaml");
   };
   const RobotModel hrp2 = load("hrp2");
   for (const RobotModel& robot : {hrp2, load("wren"), load("bison"), WithOffsets(hrp2)}) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "planner/scene/scene.h"
+#include "tests/places.h"
 #include "tests/temporary_folder.h"
 #include "tests/verify/scaled_hrp2.h"
 #include "tests/verify/verified_here.h"
@@ -42,8 +43,7 @@ class TamperedRun {
     if (walk.acceleration) name += " acceleration " + std::to_string(*walk.acceleration);
     if (walk.size != 1) name += " size " + std::to_string(walk.size);
     if (walk.robot != "hrp2") name += " robot " + walk.robot;
-    const fs::path made =
-        fs::path(HALFSTEP_BINARY_DIR) / ("verify_run_" + Sha256(name).substr(0, 16));
+    const fs::path made = InBuild("verify_run_") + Sha256(name).substr(0, 16);
     if (!fs::exists(made)) {
       const fs::path mine = made.string() + "." + std::to_string(getpid());
       Make(mine, walk);
@@ -163,7 +163,7 @@ class TamperedRun {
   // Names the build of the command that makes the run.
   static std::string Version() {
     return std::to_string(
-        std::filesystem::last_write_time(HALFSTEP_COMMAND).time_since_epoch().count());
+        std::filesystem::last_write_time(CommandFile()).time_since_epoch().count());
   }
 
   static std::string SceneOf(const TamperedWalk& walk) {
@@ -178,7 +178,7 @@ class TamperedRun {
 
   static void Make(const std::filesystem::path& place, const TamperedWalk& walk) {
     namespace fs = std::filesystem;
-    const fs::path source(HALFSTEP_SOURCE_DIR);
+    const fs::path source(InSources());
     fs::create_directories(place);
     fs::copy(source / "wpg/robots", place / "robots", fs::copy_options::recursive);
     fs::create_directories(place / "scenes");

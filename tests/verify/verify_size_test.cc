@@ -5,6 +5,7 @@
 
 #include "experiments/verify/tolerances.h"
 #include "experiments/verify/verify_run.h"
+#include "tests/places.h"
 #include "tests/verify/verify_mutation.h"
 
 namespace halfstep {
@@ -78,7 +79,7 @@ TEST(VerifySize, ARowThatIsOffByAHairOfHrp2sIsRefused) {
 }
 
 TEST(Tolerances, AreThoseOfHrp2TimesItsSize) {
-  const verify::Tolerances hrp2(LoadRobot(HALFSTEP_SOURCE_DIR "/wpg/robots/hrp2.yaml"));
+  const verify::Tolerances hrp2(LoadRobot(InSources("wpg/robots/hrp2.yaml")));
   EXPECT_NEAR(hrp2.size, 1, 1e-3);
   EXPECT_NEAR(hrp2.played, 1e-3, 1e-6);
   EXPECT_NEAR(hrp2.torque, 1e-3, 1e-4);

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <string>
 
+#include "tests/places.h"
 #include "wpg/files/input_error.h"
 
 namespace halfstep {
@@ -17,7 +18,7 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-const std::string kFolder = HALFSTEP_SOURCE_DIR "/tests/fixtures/mesh/";
+const std::string kFolder = InSources("tests/fixtures/mesh/");
 
 // A file with these bytes, removed again at the end.
 class TemporaryFile {

@@ -12,6 +12,7 @@
 #include <limits>
 #include <string>
 
+#include "tests/places.h"
 #include "tests/temporary_folder.h"
 #include "tests/wpg/shipped_robots.h"
 #include "wpg/robot/placeholder_limits.h"
@@ -116,7 +117,7 @@ TEST(NotCovered, SaysWhatPartOfTheMassHasNoBody) {
   ASSERT_EQ(shipped.size(), 1u);
   EXPECT_THAT(shipped[0], HasSubstr("what it touches: torso_yaw_link (2.29 kg), "));
   const TemporaryFolder place;
-  std::filesystem::copy(HALFSTEP_SOURCE_DIR "/wpg/robots", place / "robots",
+  std::filesystem::copy(InSources("wpg/robots"), place / "robots",
                         std::filesystem::copy_options::recursive);
   std::string urdf = ReadText(place / "robots/bison.urdf");
   const size_t begin = urdf.find("<collision>"), end = urdf.find("</collision>");

@@ -7,6 +7,7 @@
 
 #include <string>
 
+#include "tests/places.h"
 #include "tests/replaced.h"
 #include "tests/wpg/generated_robots.h"
 #include "tests/wpg/shipped_robots.h"
@@ -31,7 +32,7 @@ RobotModel LoadChanged(const std::string& from, const std::string& old_text,
 
 TEST(RobotMasses, AreThoseOfAllLinks) {
   for (const std::string& name : kShippedRobots) {
-    const WholeRobot whole = LoadWholeRobot(HALFSTEP_SOURCE_DIR "/wpg/robots/" + name + ".yaml");
+    const WholeRobot whole = LoadWholeRobot(InSources("wpg/robots/") + name + ".yaml");
     const RobotModel& robot = whole.model;
     EXPECT_TRUE(robot.masses.known()) << robot.masses.fault;
     // In the standing posture: mass, centre and inertia about it, of the bodies and of all links.

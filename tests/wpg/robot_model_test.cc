@@ -11,6 +11,7 @@
 #include <map>
 #include <string>
 
+#include "tests/places.h"
 #include "tests/replaced.h"
 #include "tests/temporary_folder.h"
 #include "tests/wpg/generated_robots.h"
@@ -227,9 +228,8 @@ TEST(RobotModel, FindsAPackageAboveTheUrdf) {
   const TemporaryFolder place;
   std::filesystem::create_directories(place / "p/meshes");
   std::filesystem::create_directories(place / "p/urdf");
-  std::filesystem::copy_file(
-      std::string(HALFSTEP_SOURCE_DIR) + "/tests/fixtures/mesh/good/cube_triangles.dae",
-      place / "p/meshes/ankle.dae");
+  std::filesystem::copy_file(InSources("tests/fixtures/mesh/good/cube_triangles.dae"),
+                             place / "p/meshes/ankle.dae");
   WriteText(place / "p/urdf/robot.urdf",
             Replaced(GeneratedUrdf(good), "<sphere radius='0.035'/>",
                      "<mesh filename='package://p/meshes/ankle.dae' scale='0.03 -0.03 0.03'/>"));

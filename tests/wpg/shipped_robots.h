@@ -3,6 +3,7 @@
 #include <array>
 #include <string>
 
+#include "tests/places.h"
 #include "tests/wpg/hrp2.h"
 
 namespace halfstep {
@@ -11,7 +12,7 @@ namespace halfstep {
 inline const std::array<std::string, 3> kShippedRobots = {"hrp2", "wren", "bison"};
 
 inline RobotModel ShippedRobot(const std::string& name) {
-  return LoadRobot(HALFSTEP_SOURCE_DIR "/wpg/robots/" + name + ".yaml");
+  return LoadRobot(InSources("wpg/robots/") + name + ".yaml");
 }
 
 /// Height of the hips when standing, HRP-2's being 1.

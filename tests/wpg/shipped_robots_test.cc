@@ -15,6 +15,7 @@
 #include <string>
 #include <utility>
 
+#include "tests/places.h"
 #include "tests/replaced.h"
 #include "tests/wpg/generated_robots.h"
 #include "tests/wpg/shipped_robots.h"
@@ -99,7 +100,7 @@ TEST(Bison, HasThePublishedNumbersAndAxesOfItsOwn) {
 }
 
 TEST(Hrp2, ComHeightOfTheModelWhenTheFileGivesNone) {
-  const std::string folder = HALFSTEP_SOURCE_DIR "/wpg/robots/";
+  const std::string folder = InSources("wpg/robots/");
   std::ifstream file(kHrp2);
   std::string yaml{std::istreambuf_iterator<char>(file), {}};
   yaml = Replaced(yaml, "com_height_m: 0.814", "com_height_m: none");

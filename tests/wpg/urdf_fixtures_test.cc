@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/places.h"
 #include "wpg/files/input_error.h"
 #include "wpg/robot/urdf_file.h"
 
@@ -17,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-const fs::path kFolder = fs::path(HALFSTEP_SOURCE_DIR) / "tests" / "fixtures" / "robot";
+const fs::path kFolder = InSources("tests/fixtures/robot");
 
 std::vector<fs::path> UrdfsIn(const fs::path& folder) {
   std::vector<fs::path> files;
