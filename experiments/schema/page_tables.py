@@ -93,6 +93,8 @@ def rows_of_keys(rows):
         if allowed and number:  # `0 … 1 m or none` in place of `number [m] or none, 0 … 1`
             kind = f"{allowed} {number[1]}" if number[1] else f"number, {allowed}"
             kind += number[2]
+        elif allowed and kind == "text" and not allowed.startswith("`halfstep "):
+            kind = allowed
         elif allowed:
             kind += f", {allowed}"
         above = key.rpartition(".")[0]
