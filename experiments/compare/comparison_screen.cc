@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <string_view>
 
 #include "experiments/compare/comparison_tables.h"
 #include "experiments/tables/ending_words.h"
@@ -20,6 +22,16 @@ std::string Mean(double value, const char* format) {
   return std::isnan(value) ? Formatted("%11s", "-") : Formatted(format, value);
 }
 
+// `overlaps+heights+…`; where all are there that `all_families` adds, "every family".
+std::string VariableWords(const std::string& variables) {
+  constexpr int kDefaultFamilies = 11;
+  constexpr std::string_view kFootsteps = "+footsteps";
+  const size_t footsteps = variables.find(kFootsteps);
+  const bool moved = footsteps != std::string::npos;
+  if (std::ranges::count(variables, '+') + 1 - (moved ? 1 : 0) < kDefaultFamilies) return variables;
+  return moved ? "every family, footsteps" : "every family";
+}
+
 // Wide enough for every method: its name, its variables.
 struct Widths {
   size_t name = 6, variables = 9, status = 6;
@@ -30,7 +42,7 @@ Widths WidthsOf(const Comparison& comparison) {
   for (const ComparedCase& one : comparison.cases) {
     for (const ComparedMethod& method : one.methods) {
       widths.name = std::max(widths.name, method.record.name.size());
-      widths.variables = std::max(widths.variables, method.record.variables.size());
+      widths.variables = std::max(widths.variables, VariableWords(method.record.variables).size());
       widths.status = std::max(widths.status, Name(method.record.ending).size());
     }
   }
@@ -50,7 +62,7 @@ std::string CaseTable(const ComparedCase& one, const Widths& widths) {
   for (const ComparedMethod& method : one.methods) {
     const MethodRecord& record = method.record;
     text += Left(record.name, widths.name) +
-            Left(record.raw() ? "-" : record.variables, widths.variables) +
+            Left(record.raw() ? "-" : VariableWords(record.variables), widths.variables) +
             Left(std::string(Name(record.ending)), widths.status) +
             Formatted("%-9s %8.3f s %7.2fx ", record.certified ? "yes" : "no", record.duration,
                       record.speedup);
@@ -97,8 +109,7 @@ std::string ComparisonScreen(const Comparison& comparison) {
   const std::vector<MethodMeans> means = Means(comparison);
   if (means.empty()) return text;
   text += Formatted(
-              "all %zu cases; shifted geometric means, a failure as ten times the slowest "
-              "success\n\n",
+              "cases: %zu; shifted geometric means, a failure as ten times the slowest success\n\n",
               comparison.cases.size()) +
           Left("method", widths.name) + Left("variables", widths.variables) + Left("objective", 9) +
           Formatted("%5s %8s %9s %6s %8s %8s %8s %8s %11s %11s %11s\n", "cases", "missing",
@@ -106,7 +117,8 @@ std::string ComparisonScreen(const Comparison& comparison) {
                     "to 5 %", "to 1 %");
   for (const MethodMeans& mean : means) {
     text +=
-        Left(mean.method.name, widths.name) + Left(mean.method.variables, widths.variables) +
+        Left(mean.method.name, widths.name) +
+        Left(VariableWords(mean.method.variables), widths.variables) +
         Left(mean.method.objective, 9) +
         Formatted("%5d %8d %9d %6d %8d %8d %8d %7.2fx", mean.cases, mean.missing, mean.certified,
                   mean.failed(), mean.solved[2], mean.solved[1], mean.solved[0], mean.speedup);

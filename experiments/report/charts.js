@@ -52,6 +52,12 @@ export function textAxis(labels, from, to) {
 
 const shortened = (words, most) => (words.length > most ? `${words.slice(0, most - 1)}…` : words);
 
+// A key without the groups that there is no room for: foot_speed of smoothing.limits.foot_speed.
+function keyWithin(words, most) {
+  const [group] = words.length > most ? /^\w+\./.exec(words) ?? [""] : [""];
+  return group ? keyWithin(words.slice(group.length), most) : shortened(words, most);
+}
+
 // As many of an axis' ticks as have room.
 function fewer(list, at, room) {
   let last = -Infinity;
@@ -81,9 +87,9 @@ export function frame(width, height, { x, y, left, right, top, bottom, xLabel, y
     if (grid) root.append(shape("path", { d: `M${left} ${at}H${right}`, stroke: palette.theme.lines }));
     root.append(text(left - 5, at + 4, shortened(words, most), { "text-anchor": "end" }));
   }
-  root.append(text((left + right) / 2, bottom + 31, shortened(xLabel, Math.floor((right - left) / 6)), { "text-anchor": "middle" }));
+  root.append(text((left + right) / 2, bottom + 31, keyWithin(xLabel, Math.floor((right - left) / 6)), { "text-anchor": "middle" }));
   const middle = (top + bottom) / 2;
-  if (yLabel) root.append(text(12, middle, shortened(yLabel, Math.floor((bottom - top) / 5.6)), { "text-anchor": "middle", transform: `rotate(-90 12 ${middle})` }));
+  if (yLabel) root.append(text(12, middle, keyWithin(yLabel, Math.floor((bottom - top) / 5.6)), { "text-anchor": "middle", transform: `rotate(-90 12 ${middle})` }));
   return root;
 }
 

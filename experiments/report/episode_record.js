@@ -113,6 +113,7 @@ const kinds = {
 
 /** Why a walk took over, in words. */
 export function handOverWords(kind, reason) {
+  if (kind === "smoothed" && reason === "overlaps") return kinds.smoothed;
   return `${kinds[kind] ?? kind}${reason ? `: ${reason}` : ""}`;
 }
 

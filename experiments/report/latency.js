@@ -22,6 +22,9 @@ function partsOf(walk, clock) {
   return [age, check, plan, smooth, Math.max(0, passed - check - plan - smooth)].map((s) => 1000 * s);
 }
 
+// Such walks answer no measurement: they improve one that is safe, for as long as the world is as it was.
+const improvements = new Set(["smoothed", "shortened"]);
+
 const sum = (values) => values.reduce((a, b) => a + b, 0);
 
 function svg(name, attributes, text) {
@@ -48,14 +51,14 @@ export class Latency {
 
   /** Walks of which the first was not handed over to a walking robot. */
   show(walks) {
-    const taken = walks.filter((walk) => walk.walk > 0);
+    const taken = walks.filter((walk) => walk.walk > 0 && !improvements.has(walk.kind));
     const key = `${taken.length} ${taken.at(-1)?.walk} ${this.parent.clientWidth}`;
     if (key === this.key) return;
     this.key = key;
     const totals = taken.map((walk) => sum(partsOf(walk, this.clock))).sort((a, b) => a - b);
-    this.sentence.textContent = taken.length === 0 ? "No walk has taken over from another yet."
+    this.sentence.textContent = taken.length === 0 ? "No walk has taken over because of a measurement yet."
       : `${taken.length} hand-over${taken.length > 1 ? "s" : ""}: median ${totals[(totals.length - 1) >> 1].toFixed(0)} ms, ` +
-        `longest ${totals.at(-1).toFixed(0)} ms.` +
+        `longest ${totals.at(-1).toFixed(0)} ms; without walks that only improve.` +
         (this.clock === "lockstep" ? " Lockstep: time stood still while it computed." : "");
     this.parent.replaceChildren(...(taken.length ? [this.keys(), this.bars(taken.slice(-most))] : []));
   }

@@ -15,7 +15,7 @@ export function provedText(value, unit) {
   if (!Number.isFinite(value)) return "–";
   const [name, factor] = told[unit] ?? [unit === "1" ? "" : unit, 1];
   const scaled = value * factor;
-  const step = scaled === 0 ? 1 : 10 ** (Math.floor(Math.log10(Math.abs(scaled))) - 2);
+  const step = scaled === 0 ? 1 : Math.max(1e-4, 10 ** (Math.floor(Math.log10(Math.abs(scaled))) - 2));
   return `≥ ${Number((Math.floor(scaled / step) * step).toPrecision(3))} ${name}`.trim();
 }
 

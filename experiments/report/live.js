@@ -265,7 +265,7 @@ function play() {
     if (message.type === "walk") before = message.footsteps = [...before.slice(0, message.same), ...message.footsteps];
     take(message);
   }
-  byId("connection").textContent = data.outcome;
+  Object.assign(byId("connection"), { textContent: data.outcome, title: data.outcome });
   if (!data.motion) return;
   walk = new Walk({ summary: { method: "executed" }, ...data.motion });
   timeline = new Timeline(redraw);

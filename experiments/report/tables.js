@@ -152,7 +152,7 @@ export function guarantee(parent, statement, walks) {
   });
   const one = shown[0]?.certificate;
   const limits = { foot_speed: one?.limits.foot_speed_m_s, foot_yaw_rate: one?.limits.foot_yaw_rate_rad_s };
-  const demanded = Object.entries(one?.demanded ?? {}).map(([name, value]) =>
+  const demanded = Object.entries(one?.demanded ?? {}).filter(([, value]) => value !== null).map(([name, value]) =>
     `${marginWords(name)} ≥ ${number(value)}` +
     (limits[name] ? ` (limit ${number(limits[name])})` : ""));
   const [promised, excepted] = (one?.tube ? one.statement : statement).split(/(?=Not guaranteed:)/);

@@ -10,11 +10,18 @@ function decoded({ step, delta }) {
   return values;
 }
 
+const defaultFamilies = 11; // overlaps, and all that `all_families` adds
+
 /** A method with the variables that it has beside the overlaps. */
 export function methodLabel(method, variables) {
   const plain = variables === "" || variables === "overlaps";
-  const symbols = variables.split("+").map((name) =>
-    ({ overlaps: "Δ", heights: "η", durations: "T" })[name] ?? name);
+  const names = variables.split("+");
+  const others = names.filter((name) => name !== "footsteps");
+  if (others.length === defaultFamilies) {
+    return `${method} (every family${others.length < names.length ? ", footsteps" : ""})`;
+  }
+  const symbols = names.map((name) =>
+    ({ overlaps: "Δ", heights: "η", durations: "T" })[name] ?? name.replaceAll("_", " "));
   return plain ? method : `${method} (${symbols.join(", ")})`;
 }
 

@@ -4,7 +4,7 @@ import { marginText } from "./least_margins.js";
 /** The description of a margin, as tables have it, with the digits that mean something. */
 export function readable(description) {
   return description
-    .replace(/(\S+) (m\/s|rad\/s|N m|m|rad) \(demanded (\S+)\)/,
+    .replace(/(\S+) (m\/s|rad\/s²|rad\/s|N m|m|rad|s|1) \(demanded (\S+)\)/,
       (_, value, unit, demanded) =>
         `${marginText(Number(value), unit)} (${marginText(Number(demanded), unit)} demanded)`)
     .replace(/tau = (\S+) s/, (_, tau) => `τ = ${Number(tau).toFixed(2)} s`);

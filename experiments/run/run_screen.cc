@@ -45,7 +45,7 @@ std::string Holders(const MarginEvaluator& evaluator, const MethodRun& run, Junc
                              : run.method == "given" ? "what was given"
                              : junction.overlap < junction.upper_bound - 1e-9
                                  ? "the balance of the program"
-                                 : "their upper bound";
+                                 : "the upper bound";
     ++holders[what];
   }
   if (count == 0) return "";

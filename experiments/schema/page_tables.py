@@ -84,23 +84,37 @@ def named(cell, all_names):
 
 
 def rows_of_keys(rows):
-    """Those of explain-config --markdown, with what is valid beside the type."""
+    """Those of explain-config --markdown, with what is valid beside the type; neighbours of which
+    the same is told share a row."""
     merged = []
     for row in rows:
         key, kind, default, allowed, meaning = cells_of(row)
-        merged.append([key, kind + (f", {allowed}" if allowed else ""), default, meaning])
+        number = re.fullmatch(r"number(?: \[(.+)\])?(| or none)", kind)
+        if allowed and number:  # `0 … 1 m or none` in place of `number [m] or none, 0 … 1`
+            kind = f"{allowed} {number[1]}" if number[1] else f"number, {allowed}"
+            kind += number[2]
+        elif allowed and kind == "text" and not allowed.startswith("`halfstep "):
+            kind = allowed
+        elif allowed:
+            kind += f", {allowed}"
+        above = key.rpartition(".")[0]
+        if merged and above and merged[-1][0].rpartition(".")[0].endswith(above) and (
+                merged[-1][1:] == [kind, default, meaning]):
+            merged[-1][0] += f", {key}"
+        else:
+            merged.append([key, kind, default, meaning])
     told = {}  # what a map has, with the map's name
     left_out = set()
     for cells in merged:
         name = cells[0].strip("`")
-        below = [(other[0].strip("`").removeprefix(f"{name}."), *other[1:]) for other in merged
+        below = [(other[0].replace(f"`{name}.", "`"), *other[1:]) for other in merged
                  if other[0].startswith(f"`{name}.")]
         if len(below) < 2:
             continue
         first = told.setdefault(repr(below), name)
         if first != name:
             cells[3] += f"; its keys are those of `{first}`"
-            left_out.update(f"`{name}.{key}`" for key, *_ in below)
+            left_out.update(other[0] for other in merged if other[0].startswith(f"`{name}."))
     return [row_of(cells) for cells in merged if cells[0] not in left_out]
 
 

@@ -116,7 +116,7 @@ TEST_F(RestToRestTest, IsAntisymmetric) {
   }
 }
 
-// Figures of wpg/README.md: about 18, 9 and 5 % for z_c = 0.8 m.
+// How large the bump is (wpg/README.md): about 18, 9 and 5 % for z_c = 0.8 m.
 TEST_F(RestToRestTest, BumpOfThreeDurations) {
   const double omega = Lipm(0.8).omega();
   for (const auto& [duration, percent] : {std::pair{1.6, 18}, {2.0, 9}, {2.4, 5}}) {
