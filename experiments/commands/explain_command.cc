@@ -93,9 +93,16 @@ ExitStatus ExplainConfig(const ExplainCommand& command) {
     }
     keys = std::move(found);
   }
-  std::cout << (command.json_schema ? KeySchema("halfstep config", keys)
-                : command.markdown  ? KeyMarkdown(keys)
-                                    : KeyScreen(keys));
+  if (command.json_schema || command.markdown) {
+    std::cout << (command.json_schema ? KeySchema("halfstep config", keys) : KeyMarkdown(keys));
+    return kSuccess;
+  }
+  const std::string screen = KeyScreen(keys);
+  std::cout << screen;
+  if (command.robot.empty() && screen.find("ℓ") != std::string::npos) {
+    std::cout
+        << "\nℓ, w, q̇, lift and aside are measures of the robot: `--robot NAME` shows values.\n";
+  }
   return kSuccess;
 }
 

@@ -18,9 +18,8 @@ constexpr size_t kMost = 10;  // demands that are told, unless there are more fa
 std::string Demand(const MarginEvaluator& evaluator, const HalfStepSequence& sequence,
                    const MissedDemand& demand, int instants) {
   return PlaceInPlan(sequence, demand) + ": " + MissedWords(evaluator, demand.worst) +
-         (demand.instants > 0
-              ? Formatted(" (at %d of %d instants)", demand.instants, instants)
-              : Formatted(" (for a moment between the %d instants looked at)", instants));
+         (demand.instants > 0 ? Formatted(" (at %d of %d instants)", demand.instants, instants)
+                              : Formatted(" (only between the %d sampled instants)", instants));
 }
 
 // Of obstacles that a body touches: a mesh that brings its floor along.

@@ -57,7 +57,7 @@ std::string SearchEnding::Sentence() const {
     why << "; points of the last round stayed violated, " << last_violated << " by at least "
         << last_violation;
   }
-  why << "; " << solver << " last ended " << opt::Name(last_ending);
+  why << "; the last solve of " << solver << " ended with " << opt::Name(last_ending);
   // What was left of the effort for the last round is nobody's concern.
   if (cut == opt::Ending::kNotRun) why << ": " << last_message;
   return why.str();

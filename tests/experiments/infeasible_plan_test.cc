@@ -112,7 +112,7 @@ TEST(RunCommand, AnInfeasiblePlanTellsWhatItMissesForAMoment) {
   const std::vector<std::string> lines = MissedDemandsText(evaluator, sequence, missed);
   EXPECT_THAT(lines, testing::Contains(testing::AllOf(
                          testing::StartsWith("footstep 1 (left), half-step down, at 3.90 s: "),
-                         HasSubstr(" (for a moment between the 201 instants looked at)"))));
+                         HasSubstr(" (only between the 201 sampled instants)"))));
 }
 
 // Of many pairs of bodies that are too near each other, the nearest at its nearest comes first.

@@ -45,8 +45,8 @@ TEST(SearchEnding, WithoutAResultOfItsOwnIsNeverOneOfTheFirstFour) {
       EXPECT_TRUE(HasOwnResult(end.Ending())) << end.Sentence();
       // What was left of the effort for the last round is nobody's concern.
       const std::string because = ended.stopped() ? "" : ": Because.";
-      EXPECT_THAT(end.Sentence(),
-                  testing::EndsWith("solver last ended " + std::string(Name(last)) + because));
+      EXPECT_THAT(end.Sentence(), testing::EndsWith("the last solve of solver ended with " +
+                                                    std::string(Name(last)) + because));
     }
   }
 }
