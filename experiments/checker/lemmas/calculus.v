@@ -49,6 +49,13 @@ Proof.
   - ring.
 Qed.
 
+Lemma d_div f g x a b : derivable_pt_lim f x a -> derivable_pt_lim g x b -> g x <> 0 ->
+  derivable_pt_lim (fun t => f t / g t) x ((a * g x - f x * b) / (g x * g x)).
+Proof.
+  intros Df Dg apart. eapply d_eq; [exact (derivable_pt_lim_div f g x a b Df Dg apart) | ].
+  unfold Rsqr. field. exact apart.
+Qed.
+
 (* Polynomials in t, and in what is known to have a derivative. *)
 Ltac derive := eapply d_eq;
   [repeat first [eassumption | apply d_const | apply d_id | apply d_exp | apply d_plus

@@ -162,6 +162,12 @@ Proof.
   pose proof (pow2_ge_0 (a * d - b * c)). nra.
 Qed.
 
+Lemma side_below x y : x <= sqrt (x * x + y * y).
+Proof.
+  eapply Rle_trans; [apply Rle_abs | ]. rewrite <- sqrt_Rsqr_abs. apply sqrt_le_1_alt.
+  unfold Rsqr. pose proof (pow2_ge_0 y). lra.
+Qed.
+
 (* As p moves by (x, y), the distance grows by no more than ‖(x, y)‖: so a ZMP that moves by w
    changes both distances by w at most, which ShareDrift takes. *)
 Theorem from_sole_is_1_lipschitz u v u' v' :
@@ -169,31 +175,19 @@ Theorem from_sole_is_1_lipschitz u v u' v' :
 Proof.
   set (way := sqrt _).
   assert (along_u : u' <= u + way /\ v' <= v + way).
-  { unfold way. split; [assert (u' - u <= Rabs (u' - u)) by apply Rle_abs;
-      assert (Rabs (u' - u) <= sqrt ((u' - u) * (u' - u) + (v' - v) * (v' - v)))
-        by (rewrite <- sqrt_Rsqr_abs; apply sqrt_le_1_alt; unfold Rsqr; nra); lra
-    | assert (v' - v <= Rabs (v' - v)) by apply Rle_abs;
-      assert (Rabs (v' - v) <= sqrt ((u' - u) * (u' - u) + (v' - v) * (v' - v)))
-        by (rewrite <- sqrt_Rsqr_abs; apply sqrt_le_1_alt; unfold Rsqr; nra); lra]. }
-  assert (rooted : forall a b, 0 <= a -> 0 <= b -> Rmax a b <= sqrt (a * a + b * b)).
-  { intros a b A B. pose proof (pow2_ge_0 a). pose proof (pow2_ge_0 b). apply Rmax_lub.
-    - rewrite <- (sqrt_square a) at 1 by exact A. apply sqrt_le_1_alt. nra.
-    - rewrite <- (sqrt_square b) at 1 by exact B. apply sqrt_le_1_alt. nra. }
+  { pose proof (side_below (u' - u) (v' - v)). pose proof (side_below (v' - v) (u' - u)) as Q.
+    rewrite Rplus_comm in Q. unfold way. lra. }
+  assert (rooted : forall a b, Rmax a b <= sqrt (a * a + b * b)).
+  { intros a b. apply Rmax_lub; [apply side_below | rewrite Rplus_comm; apply side_below]. }
   destruct (pos_range u) as [U0 U]. destruct (pos_range v) as [V0 V].
   assert (below : Rmax u v <= from_sole u v).
-  { unfold from_sole. destruct Rlt_dec; [ | lra]. pose proof (rooted _ _ U0 V0).
+  { unfold from_sole. destruct Rlt_dec; [ | lra]. pose proof (rooted (pos u) (pos v)).
     assert (Rmax u v <= Rmax (pos u) (pos v)) by
       (apply Rmax_lub; [eapply Rle_trans; [exact U | apply Rmax_l]
                        | eapply Rle_trans; [exact V | apply Rmax_r]]). lra. }
   unfold from_sole at 1. destruct (Rlt_dec 0 (Rmax u' v')) as [out | inside].
   2: { pose proof (Rmax_l u v). pose proof (Rmax_r u v).
        assert (Rmax u' v' <= Rmax u v + way) by (apply Rmax_lub; lra). lra. }
-  (* In the open quadrant below m ≤ 0, or with the positive parts. *)
-  set (m := Rmin 0 (Rmax u v)).
-  assert (m0 : m <= 0) by apply Rmin_l.
-  assert (parts : pos u' <= (pos u - m) + Rmax 0 (pos u' - (pos u - m)) /\
-                  pos v' <= (pos v - m) + Rmax 0 (pos v' - (pos v - m))).
-  { pose proof (Rmax_r 0 (pos u' - (pos u - m))). pose proof (Rmax_r 0 (pos v' - (pos v - m))). lra. }
   unfold from_sole. destruct (Rlt_dec 0 (Rmax u v)) as [out0 | in0].
   - assert (pu : pos u' <= pos u + Rabs (u' - u)) by
       (unfold pos, Rmax, Rabs; repeat destruct Rle_dec; destruct Rcase_abs; lra).
