@@ -90,9 +90,9 @@ Section SettingOff.
     assert (ratio : lost / (H - c 0) <= exp (omega * b)).
     { apply (Rmult_le_reg_r (H - c 0)); [lra | ].
       replace (lost / (H - c 0) * (H - c 0)) with lost by (field; lra).
-      assert (exp (omega * b) * (exp (- omega * b) * lost) <= exp (omega * b) * (H - c 0)) by
-        (apply Rmult_le_compat_l; lra).
-      rewrite <- Rmult_assoc, inverse in H0. lra. }
+      assert (scaled : exp (omega * b) * (exp (- omega * b) * lost) <= exp (omega * b) * (H - c 0))
+        by (apply Rmult_le_compat_l; lra).
+      rewrite <- Rmult_assoc, inverse in scaled. lra. }
     assert (logs : ln (lost / (H - c 0)) <= omega * b).
     { rewrite <- (ln_exp (omega * b)). destruct ratio as [lt | eq].
       - left. apply ln_increasing; [apply Rdiv_lt_0_compat; lra | exact lt].

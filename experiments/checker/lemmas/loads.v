@@ -1,5 +1,5 @@
 (* wpg/README.md, "What each foot carries" and "Soles at different heights", "Loads";
-   smoothing/README.md, "Torques between instants", "both feet standing".
+   smoothing/README.md, "Torques between instants": how λ drifts.
    C++: RightShare, FromSole, FootLoads::On, Couple, CoupleOfRise and ShareDrift
    (wpg/motion/foot_loads.cc). A wrench is (moment, force) about a point of the plane of reference.
    Assumes f_z > 0; of the share, that p is not inside both soles (d_L + d_R > 0). *)
@@ -70,23 +70,21 @@ Proof.
     assert (Z : pos l' = 0) by lra. rewrite Z. unfold Rdiv. lra.
 Qed.
 
-(* λ changes with the distances at no more than 1/(d_L + d_R) of the one that is there. *)
-Theorem share_slope l r l' : 0 <= l -> 0 <= r -> 0 <= l' -> 0 < l + r -> 0 < l' + r ->
-  Rabs (l' / (l' + r) - l / (l + r)) <= Rabs (l' - l) / (l + r).
+(* A slope of at most 1/(d_L + d_R): where p moves by w, both distances change by w at most (below),
+   and λ by w/(d_L + d_R) at most, of either place. *)
+Theorem share_slope l r l' r' w : 0 <= l -> 0 <= r -> 0 <= l' -> 0 <= r' ->
+  0 < l + r -> 0 < l' + r' -> Rabs (l' - l) <= w -> Rabs (r' - r) <= w ->
+  Rabs (l' / (l' + r') - l / (l + r)) <= w / (l + r).
 Proof.
-  intros Hl Hr Hl' apart apart'.
-  replace (l' / (l' + r) - l / (l + r)) with ((l' - l) / (l + r) * (r / (l' + r))) by
-    (field; lra).
-  rewrite Rabs_mult.
-  assert (inv : 0 < / (l + r)) by (apply Rinv_0_lt_compat; exact apart).
-  assert (inv' : 0 < / (l' + r)) by (apply Rinv_0_lt_compat; exact apart').
-  assert (E : Rabs ((l' - l) / (l + r)) = Rabs (l' - l) / (l + r)).
-  { unfold Rdiv. rewrite Rabs_mult, (Rabs_pos_eq (/ (l + r))) by lra. reflexivity. }
-  assert (0 <= Rabs (l' - l) / (l + r)).
-  { unfold Rdiv. apply Rmult_le_pos; [apply Rabs_pos | lra]. }
-  assert (unit : 0 <= r / (l' + r) <= 1).
-  { assert (one : (l' + r) * / (l' + r) = 1) by (apply Rinv_r; lra). unfold Rdiv. split; nra. }
-  rewrite E, (Rabs_pos_eq (r / (l' + r))) by lra. nra.
+  intros l0 r0 l0' r0' apart apart' of_l of_r.
+  assert (L : - w <= l' - l <= w) by (unfold Rabs in of_l; destruct Rcase_abs in of_l; lra).
+  assert (R : - w <= r' - r <= w) by (unfold Rabs in of_r; destruct Rcase_abs in of_r; lra).
+  replace (l' / (l' + r') - l / (l + r)) with
+    (((l' - l) * r' - l' * (r' - r)) / ((l' + r') * (l + r))) by (field; lra).
+  replace (w / (l + r)) with (w * (l' + r') / ((l' + r') * (l + r))) by (field; lra).
+  assert (inv : 0 < / ((l' + r') * (l + r))) by (apply Rinv_0_lt_compat; nra).
+  unfold Rdiv. rewrite Rabs_mult, (Rabs_pos_eq (/ _)) by lra.
+  apply Rmult_le_compat_r; [lra | ]. apply Rabs_le. split; nra.
 Qed.
 
 (* The wrenches. n, f: the floor's moment about O and force; c_L, c_R: the soles' centres, at heights

@@ -39,6 +39,31 @@ Proof.
   pose proof (S_range _ (clamp_range ((1 - x) / r))). split; nra.
 Qed.
 
+(* B and two derivatives are 0 at both ends, and |B''| ≤ 24: so p is C², by S_is_C2. *)
+Definition round_bump1 (x : R) := 192 * (x * (1 - x)) * (x * (1 - x)) * (1 - 2 * x).
+Definition round_bump2 (x : R) := 384 * (x * (1 - x)) * (1 - 5 * (x * (1 - x))).
+
+Theorem round_bump_derivatives x : derivable_pt_lim round_bump x (round_bump1 x) /\
+  derivable_pt_lim round_bump1 x (round_bump2 x).
+Proof.
+  split.
+  - apply (d_ext (fun x => 64 * (x * (1 - x)) * (x * (1 - x)) * (x * (1 - x)))).
+    + intro t. unfold round_bump. ring.
+    + unfold round_bump1. derive. ring.
+  - unfold round_bump1, round_bump2. derive. ring.
+Qed.
+
+Theorem round_bump_ends : round_bump 0 = 0 /\ round_bump 1 = 0 /\ round_bump1 0 = 0 /\
+  round_bump1 1 = 0 /\ round_bump2 0 = 0 /\ round_bump2 1 = 0.
+Proof. unfold round_bump, round_bump1, round_bump2. repeat split; ring. Qed.
+
+Theorem round_bump_second x : 0 <= x <= 1 -> Rabs (round_bump2 x) <= 24.
+Proof.
+  intros [low high]. unfold round_bump2. pose proof (pow2_ge_0 (x - 1 / 2)).
+  assert (0 <= x * (1 - x) <= 1 / 4) by (split; nra). set (u := x * (1 - x)) in *.
+  apply Rabs_le. pose proof (pow2_ge_0 (u - 1 / 10)). split; nra.
+Qed.
+
 Lemma mixture_range w p q : 0 <= w <= 1 -> 0 <= p <= 1 -> 0 <= q <= 1 ->
   0 <= w * p + (1 - w) * q <= 1.
 Proof. intros. split; nra. Qed.

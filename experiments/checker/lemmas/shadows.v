@@ -1,6 +1,5 @@
-(* wpg/README.md, "Soles at different heights", "Balance" and the shadows; smoothing/README.md, "Soles
-   at different heights" ("Soles at different heights (`SoleShadows::LeastOver`)"), and "ZMP" of
-   "Tubes".
+(* wpg/README.md, "Soles at different heights": "Balance" and the shadows; smoothing/README.md, "The
+   robot's ZMP between instants": of soles at different heights; "Tubes": of the ZMP.
    C++: SoleShadows (wpg/motion/sole_shadows.cc), SupportPolygon::Margin
    (wpg/geometry/support_polygon.cc), RobotDynamics::Zmp and Tilt.
    Assumes f_z > 0, soles that are convex, and in least_over a polygon of distinct corners that
