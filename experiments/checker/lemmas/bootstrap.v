@@ -23,13 +23,15 @@ Section Change.
       replace (m - m) with 0 by ring. rewrite Rabs_R0. exact h0. }
     destruct (Rtotal_order t m) as [lt | [-> | gt]].
     - destruct (MVT_cor2 x x1 t m lt (fun c _ => D1 c)) as [c [eq inside]].
-      assert (Rabs (x1 c) <= sup) by (apply bound; unfold Rabs in *; repeat destruct Rcase_abs; lra).
+      assert (Rabs (x1 c) <= sup)
+        by (apply bound; unfold Rabs in *; repeat destruct Rcase_abs; lra).
       replace (x t - x m) with (- (x1 c * (m - t))) by lra. rewrite Rabs_Ropp, Rabs_mult.
       rewrite Rmult_comm. rewrite (Rabs_minus_sym m t).
       apply Rmult_le_compat; auto using Rabs_pos.
     - replace (x m - x m) with 0 by ring. rewrite Rabs_R0. nra.
     - destruct (MVT_cor2 x x1 m t gt (fun c _ => D1 c)) as [c [eq inside]].
-      assert (Rabs (x1 c) <= sup) by (apply bound; unfold Rabs in *; repeat destruct Rcase_abs; lra).
+      assert (Rabs (x1 c) <= sup)
+        by (apply bound; unfold Rabs in *; repeat destruct Rcase_abs; lra).
       rewrite eq, Rabs_mult, Rmult_comm. apply Rmult_le_compat; auto using Rabs_pos.
   Qed.
 
@@ -54,7 +56,8 @@ Section Change.
         { apply (rises (fun v => v * sup + Rabs (x1 m) - s * (k * x1 (m + k * v)))
                    (fun v => sup - s * (k * k * x2 (m + k * v)))); [exact v0 | | ].
           - intros u _. eapply d_eq.
-            + apply d_minus; [apply d_plus; [apply d_mult; [apply d_id | apply d_const] | apply d_const] | ].
+            + apply d_minus; [apply d_plus | ];
+                [apply d_mult; [apply d_id | apply d_const] | apply d_const | ].
               apply d_scal, d_scal. apply (d_comp x1 (fun v => m + k * v)); [ | apply D2].
               apply d_plus; [apply d_const | apply d_scal, d_id].
             + cbv beta. ring.
@@ -157,7 +160,8 @@ Section Bootstrap.
     { destruct (Req_dec top h) as [eq | ne]; [exact eq | exfalso].
       destruct Etop as [range holds]. assert (lt : top < h) by lra.
       destruct (all_near top range) as [r [r0 near]].
-      { intros i Hi. pose proof (as_far_as top range holds i Hi). pose proof (implied_less i Hi). lra. }
+      { intros i Hi. pose proof (as_far_as top range holds i Hi).
+        pose proof (implied_less i Hi). lra. }
       set (c := Rmin h (top + r / 2)).
       assert (c1 : top < c) by (unfold c, Rmin; destruct Rle_dec; lra).
       assert (c2 : c <= h) by apply Rmin_l. assert (c3 : c <= top + r / 2) by apply Rmin_r.

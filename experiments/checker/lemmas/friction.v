@@ -31,8 +31,9 @@ Section TwoPoints.
 
   Lemma norm_triangle a b c d : norm (a + c) (b + d) <= norm a b + norm c d.
   Proof.
-    unfold norm. assert (A : 0 <= a * a + b * b) by (pose proof (pow2_ge_0 a); pose proof (pow2_ge_0 b); lra).
-    assert (C : 0 <= c * c + d * d) by (pose proof (pow2_ge_0 c); pose proof (pow2_ge_0 d); lra).
+    assert (squares : forall x y, 0 <= x * x + y * y).
+    { intros x y. pose proof (pow2_ge_0 x). pose proof (pow2_ge_0 y). lra. }
+    unfold norm. pose proof (squares a b) as A. pose proof (squares c d) as C.
     pose proof (sqrt_pos (a * a + b * b)). pose proof (sqrt_pos (c * c + d * d)).
     pose proof (sqrt_sqrt _ A) as P. pose proof (sqrt_sqrt _ C) as Q.
     set (p := sqrt (a * a + b * b)) in *. set (q := sqrt (c * c + d * d)) in *.

@@ -76,12 +76,15 @@ Section SettingOff.
     replace (- omega * (b + phi)) with (- omega * b + - omega * phi) in bound by ring.
     rewrite exp_plus in bound.
     assert (less : exp (- omega * phi) <= exp (- omega * phi1)).
-    { destruct shorter as [lt | eq]; [left; apply exp_increasing; nra | right; rewrite eq; reflexivity]. }
+    { destruct shorter as [lt | eq].
+      - left. apply exp_increasing. nra.
+      - right. rewrite eq. reflexivity. }
     pose proof (exp_pos (- omega * b)) as E.
     assert (kept : exp (- omega * b) * lost <= H - c 0).
     { assert ((M - S) * exp (- omega * phi) <= (M - S) * exp (- omega * phi1)) by
         (apply Rmult_le_compat_l; lra).
-      assert (exp (- omega * b) * lost <= exp (- omega * b) * (H - S - (M - S) * exp (- omega * phi)))
+      assert (exp (- omega * b) * lost <=
+              exp (- omega * b) * (H - S - (M - S) * exp (- omega * phi)))
         by (apply Rmult_le_compat_l; [lra | unfold lost; lra]).
       lra. }
     assert (inverse : exp (omega * b) * exp (- omega * b) = 1).

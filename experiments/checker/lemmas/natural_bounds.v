@@ -122,7 +122,8 @@ Section Walk.
   Theorem up_ends_before_third a : Nat.even a = true -> ends a <= t (S (S (S a))).
   Proof.
     intros even.
-    assert (down : Nat.even (S a) = false) by (rewrite Nat.even_succ, <- Nat.negb_even, even; reflexivity).
+    assert (down : Nat.even (S a) = false)
+      by (rewrite Nat.even_succ, <- Nat.negb_even, even; reflexivity).
     assert (up : Nat.even (S (S a)) = true) by (simpl; exact even).
     destruct (up_down a even) as [_ of_a]. destruct (up_down _ up) as [of_up _].
     pose proof (natural_bound_below_both (S a)) as [lower upper].
@@ -136,7 +137,8 @@ Section Walk.
     intros far [_ ei] [sj _]. destruct (Nat.even i) eqn:even.
     - pose proof (up_ends_before_third i even).
       assert (t (S (S (S i))) <= t j) by (apply starts_in_order; lia). lra.
-    - assert (up : Nat.even (S i) = true) by (rewrite Nat.even_succ, <- Nat.negb_even, even; reflexivity).
+    - assert (up : Nat.even (S i) = true)
+        by (rewrite Nat.even_succ, <- Nat.negb_even, even; reflexivity).
       pose proof (up_ends_before_third (S i) up). pose proof (next_end i).
       assert (t (S (S (S (S i)))) <= t j) by (apply starts_in_order; lia). lra.
   Qed.

@@ -2,7 +2,7 @@
    smoothing/README.md, "Motion bounds": "For the smoothstep sup|π̈| on a stretch is exact".
    C++: Smoothstep::At, SecondBound and ThirdRange (wpg/motion/smoothstep.h), RampedStep
    (wpg/motion/ramped_step.h), all on the window [0, 1]: x stands for (σ − begin)/(end − begin).
-   Assumes r in (0, ½] for S_r, as LoadRobot's and the configs' checks do. *)
+   Assumes r in (0, ½] for S_r, as FootProfile checks. *)
 Require Import Reals Lra Psatz.
 From Halfstep Require Import calculus.
 Open Scope R_scope.
