@@ -19,13 +19,13 @@ case "${1:-}" in
 esac
 
 experiments/install_dependencies.sh
-# For the tests of notebooks, replay and other locales, with --all of the report: without them they
-# are skipped.
-browser="chromium chromium-driver"
-[ "$presets" != release ] || browser=
-experiments/install_dependencies.sh $browser doxygen libmujoco-dev python3-nbconvert \
+# For the tests of notebooks, replay and other locales, with --all of the report and the lemmas:
+# without them they are skipped.
+of_all="chromium chromium-driver coq"
+[ "$presets" != release ] || of_all=
+experiments/install_dependencies.sh $of_all doxygen libmujoco-dev python3-nbconvert \
   python3-ipykernel python3-pandas python3-matplotlib locales ||
-  echo "Report, notebooks, replay or locales will not be tested" >&2
+  echo "Report, lemmas, notebooks, replay or locales will not be tested" >&2
 mkdir -p build
 
 # Runs a command; its output goes to a log, and to the screen only when it fails.
@@ -61,7 +61,7 @@ if [ "$presets" = release ]; then
   all_only='walks.stand/(bar_10cm|bar_5cm|bison|clutter|crossing|cylinders|fence|fig4|fig5|island|plan_|platform|random_room|stones|wren)'
   all_only="$all_only|walks.stand/stairs_(10cm_down|15cm)"
   all_only="$all_only|(ReportPage|SweepPage|LivePage).InABrowser"
-  all_only="$all_only|^EveryValue$|^VerifyStudy$|examples.in_cpp"
+  all_only="$all_only|^lemmas.hold$|^EveryValue$|^VerifyStudy$|examples.in_cpp"
 fi
 
 for preset in $presets; do

@@ -15,7 +15,7 @@ import tempfile
 from urllib.parse import unquote
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-SOURCES = (".h", ".cc", ".py", ".pyi", ".js", ".mjs", ".sh", ".dox")
+SOURCES = (".h", ".cc", ".py", ".pyi", ".js", ".mjs", ".sh", ".dox", ".v")
 LINK = re.compile(r"\]\(<?([^)\s>]+)>?(?: +\"[^\"]*\")?\)|^\[[^\]]+\]: (\S+)|"
                   r"\b(?:href|src)=\"([^\"]+)\"")
 NAMED = re.compile(r"((?:\w[\w.-]*/)*\w[\w.-]*\.md)"
