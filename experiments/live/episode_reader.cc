@@ -129,7 +129,9 @@ void ReadObstacles(const Tables& tables, const Place& place, Episode* episode) {
   }
 }
 
-WalkPlan ReadWalk(const Tables& tables, size_t walk, const LiveConfig& config, const Place& place) {
+// The end of a walk whose beginning is that of the walk before it, which has `most` half-steps.
+WalkTail ReadWalk(const Tables& tables, size_t walk, const LiveConfig& config, const Place& place,
+                  int most) {
   const CsvTable table = tables.Of(WalkFolder(walk) + "/footsteps");
   const std::vector<std::string> feet = table.Texts("foot");
   const std::vector<double> x = table.Numbers("x_m"), y = table.Numbers("y_m"),
@@ -152,12 +154,31 @@ WalkPlan ReadWalk(const Tables& tables, size_t walk, const LiveConfig& config, c
   }
   if (footsteps.empty()) throw InputError({table.path + ": no footsteps"});
   const HalfStepConfig& half_step = config.experiment.half_step;
-  WalkPlan plan;
+  const CsvTable half_steps = tables.Of(WalkFolder(walk) + "/half_steps");
+  const std::vector<int> number = Integers(half_steps, "half_step");
+  WalkTail tail;
+  tail.first = number.empty() ? 0 : number.front() - 1;
+  if (tail.first < 0 || tail.first > most || tail.first % 2 != 0) {
+    throw InputError({half_steps.path + Formatted(":2: half_step: %d ", tail.first + 1) +
+                      Formatted("(valid: odd, from 1 to %d, where a step begins)", most + 1)});
+  }
   const HalfStepShape shape = ShapeOf(half_step);
-  plan.sequence = MakeSequence(start, footsteps, half_step.via_lateral, shape,
-                               MotionModelOf(place.robot, shape));
-  plan.parameters = ReadParameters(tables.folder() / WalkFolder(walk), plan.sequence);
-  return plan;
+  tail.plan.sequence = MakeSequence(start, footsteps, half_step.via_lateral, shape,
+                                    MotionModelOf(place.robot, shape));
+  tail.plan.parameters =
+      ReadParameters(tables.folder() / WalkFolder(walk), tail.plan.sequence, tail.first);
+  if (tail.first > 0) {
+    tail.begin = half_steps.Numbers("start_s").front();
+    const CsvTable overlaps = tables.Of(WalkFolder(walk) + "/overlaps");
+    tail.overlap = overlaps.Numbers("overlap_s").front();
+    // At most what all of both half-steps may be.
+    const double bound = tail.plan.parameters.durations.front();
+    if (!(tail.overlap >= -kLongestRest && tail.overlap <= bound + kOverlapTolerance)) {
+      throw InputError({overlaps.path + Formatted(":2: overlap_s: %g (valid: from %g to %g)",
+                                                  tail.overlap, -kLongestRest, bound)});
+    }
+  }
+  return tail;
 }
 
 void ReadWalks(const Tables& tables, const LiveConfig& config, const Place& place,
@@ -173,10 +194,11 @@ void ReadWalks(const Tables& tables, const LiveConfig& config, const Place& plac
   const std::vector<std::string> kinds = table.Texts("kind"), reasons = table.Texts("reason");
   if (check.size() < t.size()) throw InputError({timings.path + ": has fewer rows than plans.csv"});
   for (size_t k = 0; k < t.size(); ++k) {
+    const int most = k == 0 ? 0 : episode->walks.back().tail.size();
     episode->walks.push_back({.t = t[k],
                               .kind = Named(kProposalKinds, kinds[k], table, k),
                               .reason = reasons[k] == "none" ? "" : reasons[k],
-                              .plan = ReadWalk(tables, k, config, place),
+                              .tail = ReadWalk(tables, k, config, place, most),
                               .first_changed = first[k] - 1,
                               .asked = asked[k],
                               .measured = measured[k],

@@ -167,7 +167,7 @@ TEST(ServedEpisode, ABarThatIsCarriedIntoTheWayIsWalkedAround) {
   Connection client = served.Socket();
   const json hello = client.ReadLine();
   EXPECT_EQ(hello["type"], "hello");
-  EXPECT_EQ(hello["protocol"], 2);
+  EXPECT_EQ(hello["protocol"], 3);
   EXPECT_EQ(hello["source"], "stand_in");
   EXPECT_EQ(hello["spare"].size(), 8U);
   EXPECT_EQ(hello["obstacles"][0]["name"], "bar");
