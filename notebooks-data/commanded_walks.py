@@ -116,8 +116,8 @@ def largest_difference(out, plans):
                 except ValueError:
                     most = max(most, 0.0 if value == a[key] else math.inf)
         if first:
-            ends = float(rows[first - 1]["start_s"]) + float(rows[first - 1]["duration_s"])
-            begins = ends - float(overlaps[0]["overlap_s"])
+            start, duration = (float(rows[first - 1][key]) for key in ("start_s", "duration_s"))
+            begins = start + (duration - float(overlaps[0]["overlap_s"]))
             most = max(most, abs(begins - float(half_steps[0]["start_s"])))
         rows[first:] = half_steps
         soles[2 + first // 2 if first else 0:] = feet[2:] if first else feet
