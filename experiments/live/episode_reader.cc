@@ -83,8 +83,8 @@ void ReadObstacles(const RecordedTables& tables, const Place& place, Episode* ep
 }
 
 // The end of a walk whose beginning is that of the walk before it, which has `most` half-steps.
-WalkTail ReadWalk(const RecordedTables& tables, size_t walk, const LiveConfig& config, const Place& place,
-                  int most) {
+WalkTail ReadWalk(const RecordedTables& tables, size_t walk, const LiveConfig& config,
+                  const Place& place, int most) {
   const CsvTable table = tables.Of(WalkFolder(walk) + "/footsteps");
   const std::vector<std::string> feet = table.Texts("foot");
   const std::vector<double> x = table.Numbers("x_m"), y = table.Numbers("y_m"),
