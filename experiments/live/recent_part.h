@@ -11,7 +11,7 @@ namespace halfstep {
 /// one more for each hour, and a rest until half-steps begin as they do: at the same times, to the
 /// bit. So the motion is the same from then on.
 struct RecentPart {
-  WalkPlan plan;
+  WalkPlan plan;  ///< of it
   int first = 0;  ///< half-step of the walk that its 0 is; even
 
   /// None where little is past. `begun`: the latest half-step that has begun.
