@@ -7,7 +7,7 @@
 `random`: velocities (also backwards, sideways, rest), paths and lists of footsteps at random, every
 1 to 8 s, for so many minutes; the folder is then verified. A row says, of one minute: half-steps
 begun, commands, walks handed over, what the replanner worked for each of these on average
-(Work::effort, counted), and how many half-steps the walk has. At the end, on standard error:
+(Work::effort, counted), how many half-steps the walk has, and what the walks' tables take. At the end, on standard error:
 half-steps that began without a grant that reached them, the largest difference of any number of a
 half-step that had begun between a walk and the one that took over from it (0: they are one function,
 and so are all their derivatives), and how far CoM, acceleration and ZMP are from p = c - (z/g) c''
@@ -21,10 +21,12 @@ import json
 import math
 import pathlib
 import random
+import resource
 import subprocess
 import sys
 
 GRAVITY = 9.81
+PEAK = {}  # of a command's memory [MB]
 HEAD = """name: {name}
 robot: hrp2
 scene: none
@@ -74,6 +76,7 @@ def live(halfstep, folder, name, script, longest):
     out = folder / name
     run = subprocess.run([halfstep, "live", str(config), "--out", str(out), "--overwrite", "--json"],
                          capture_output=True, text=True)
+    PEAK["live"] = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1e3
     if run.returncode not in (0, 1) or not run.stdout:
         sys.exit(f"{name}: {run.stderr}")
     return out, json.loads(run.stdout)
@@ -88,25 +91,36 @@ def rows_of(path):
     return list(each_row(path))
 
 
-def largest_difference(out, plans, begun):
-    """Of the numbers of half-steps that had begun, between each walk and its successor."""
-    last = rows_of(out / "walks" / f"{len(plans) - 1:03d}" / "half_steps.csv")
-    starts = [float(row["start_s"]) for row in last[:len(begun)]]
-    most, before, steps_before = 0.0, [], []
+def largest_difference(out, plans):
+    """Of the numbers of half-steps that had begun, between each walk and its successor, whose tables
+    begin with the step that changed: those that it tells anew, where its soles stand at their
+    beginning, and when the first of its half-steps begins by its overlap."""
+    most, rows, soles = 0.0, [], []
     for k, plan in enumerate(plans):
-        rows = rows_of(out / "walks" / f"{k:03d}" / "half_steps.csv")
-        handed_over = float(plan["handed_over_s"])
-        count = sum(start < handed_over - 1e-9 for start in starts)
-        footsteps = rows_of(out / "walks" / f"{k:03d}" / "footsteps.csv")
-        steps = footsteps[:2 + count // 2]
-        pairs = list(zip(before[:count], rows[:count])) + list(zip(steps_before, steps))
+        folder = out / "walks" / f"{k:03d}"
+        half_steps, feet = rows_of(folder / "half_steps.csv"), rows_of(folder / "footsteps.csv")
+        overlaps = rows_of(folder / "overlaps.csv")
+        first, handed_over = int(half_steps[0]["half_step"]) - 1, float(plan["handed_over_s"])
+        stand = {}
+        for foot in soles[:2 + first // 2][-12:] if first else feet[:2]:
+            stand[foot["foot"]] = foot
+        begun = [row for row in rows[first:] if float(row["start_s"]) < handed_over - 1e-9]
+        steps = soles[2 + first // 2:]
+        pairs = [(stand[foot["foot"]], {key: foot[key] for key in ("x_m", "y_m", "yaw_rad")})
+                 for foot in feet[:2]]
+        pairs += list(zip(begun, half_steps)) + list(zip(steps[:len(begun) // 2], feet[2:]))
         for a, b in pairs:
             for key, value in b.items():
                 try:
                     most = max(most, abs(float(value) - float(a[key])))
                 except ValueError:
                     most = max(most, 0.0 if value == a[key] else math.inf)
-        before, steps_before = rows, footsteps
+        if first:
+            start, duration = (float(rows[first - 1][key]) for key in ("start_s", "duration_s"))
+            begins = start + (duration - float(overlaps[0]["overlap_s"]))
+            most = max(most, abs(begins - float(half_steps[0]["start_s"])))
+        rows[first:] = half_steps
+        soles[2 + first // 2 if first else 0:] = feet[2:] if first else feet
     return most
 
 
@@ -133,7 +147,9 @@ def at_random(halfstep, minutes, folder, seed):
     events = rows_of(out / "events.csv")
     writer = csv.writer(sys.stdout, lineterminator="\n")
     writer.writerow(["minute", "half_steps_begun", "commands", "walks", "effort_per_walk",
-                     "walk_length"])
+                     "walk_length", "walks_kb"])
+    sizes = [sum(file.stat().st_size for file in (out / "walks" / f"{k:03d}").iterdir())
+             for k in range(len(plans))]
     of_minute = collections.defaultdict(list)
     for plan, timing in zip(plans, timings):
         of_minute[int(float(plan["handed_over_s"]) // 60)].append((plan, timing))
@@ -143,18 +159,21 @@ def at_random(halfstep, minutes, folder, seed):
         effort = sum(float(timing["effort"]) for _, timing in walks) / max(1, len(walks))
         writer.writerow([minute, sum(e["event"] == "begins" for e in inside),
                          sum(e["event"] == "commanded" for e in inside), len(walks),
-                         f"{effort:.4f}", 2 * int(walks[-1][0]["footsteps"]) if walks else ""])
+                         f"{effort:.4f}", 2 * int(walks[-1][0]["footsteps"]) if walks else "",
+                         sum(sizes[int(plan["walk"])] for plan, _ in walks) // 1000])
     unproved = sum(int(row["half_step"]) > int(grants[int(row["grant"])]["through"])
                    for row in begun)
-    difference = largest_difference(out, plans, begun)
+    difference = largest_difference(out, plans)
     first, last = lipm_residuals(out, float(summary["duration_s"]))
     verified = subprocess.run([halfstep, "verify", str(out)], capture_output=True, text=True)
     refused = sum(e["event"] == "refused" for e in events)
     unsafe = sum(e["event"] == "unsafe" for e in events)
+    record = sum(file.stat().st_size for file in out.rglob("*") if file.is_file())
     print(f"{summary['ending']} after {summary['duration_s']:.1f} s, {len(begun)} half-steps, "
           f"{len(plans)} walks, {refused} refused, {unsafe} times blocked; {unproved} half-steps "
           f"without a grant; hand-overs differ by {difference:.3g}; LIPM residual {first:.3g} m in "
-          f"the first minute, {last:.3g} m in the last; "
+          f"the first minute, {last:.3g} m in the last; {sum(sizes) / 1e6:.1f} MB of walks, "
+          f"{record / 1e6:.1f} MB in all; at most {PEAK['live']:.0f} MB of memory; "
           f"{'verified' if verified.returncode == 0 else verified.stdout + verified.stderr}",
           file=sys.stderr)
     promised = summary["promise"]["status"] == "kept" and verified.returncode == 0

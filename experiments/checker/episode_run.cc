@@ -59,6 +59,40 @@ Scene FromRest(const WalkRun& run, const StopBranch& branch, Scene world) {
   return world;
 }
 
+// The tables of the last walk, whole: what is before a walk's own is that of the walk before it.
+WalkTables LastWalk(const verify::EpisodeText& episode) {
+  WalkTables whole;
+  for (size_t k = 0; k < episode.walks.size(); ++k) {
+    const verify::EpisodeWalkText& walk = episode.walks[k];
+    const auto refuse = [&](const std::string& what) {
+      throw InputError({verify::FolderOfWalk(k) + what});
+    };
+    const auto first = static_cast<size_t>(walk.first);
+    if (first % 2 != 0 || first > whole.half_steps.size()) {
+      refuse("/half_steps.csv: does not begin where a step of the walk before it does");
+    }
+    const size_t before = first > 0 ? 1 : 0;  // overlaps before the first row
+    if (walk.overlaps.size() + 1 != walk.half_steps.size() + before) {
+      refuse("/overlaps.csv: has not one overlap for each two half-steps");
+    }
+    if (walk.footsteps.size() < 2) refuse("/footsteps.csv: does not say where the soles stand");
+    // Of a walk that goes on, where both soles stand is known.
+    const auto begin = walk.footsteps.begin() + (first > 0 ? 2 : 0);
+    whole.footsteps.resize(first > 0 ? 2 + first / 2 : 0);
+    whole.footsteps.insert(whole.footsteps.end(), begin, walk.footsteps.end());
+    whole.half_steps.resize(first);
+    whole.half_steps.insert(whole.half_steps.end(), walk.half_steps.begin(), walk.half_steps.end());
+    whole.starts.resize(first);
+    for (size_t i = first; i < whole.half_steps.size(); ++i) {
+      whole.starts.push_back(i == 0 ? Interval(0.0)
+                                    : whole.starts[i - 1] +
+                                          Interval(whole.half_steps[i - 1].duration) -
+                                          Interval(walk.overlaps[i - first + before - 1]));
+    }
+  }
+  return whole;
+}
+
 }  // namespace
 
 WalkRun ReadEpisodeRun(const std::string& folder, const std::string& robot_file,
@@ -87,26 +121,16 @@ WalkRun ReadEpisodeRun(const std::string& folder, const std::string& robot_file,
       verify::ReadEpisode(root, static_cast<size_t>(manifest.walks));
   verify::CheckEpisodeNumbers(episode, run.scene, &findings);
   if (findings.disagreements() > 0) throw InputError(findings.reasons());
-  const verify::EpisodeWalkText& walk = episode.walks.back();
   const verify::HalfStep half_step = verify::HalfStepOf(experiment.half_step);
   run.crouch = half_step.crouch;
-  run.tables = {walk.footsteps,
-                walk.half_steps,
-                {0.0},
-                half_step.form,
-                Interval(run.robot.com_height) - Interval(run.crouch)};
-  if (walk.overlaps.size() + 1 != walk.half_steps.size()) {
-    throw InputError({"overlaps.csv: has not one overlap for each two half-steps"});
-  }
-  for (size_t i = 0; i < walk.overlaps.size(); ++i) {
-    run.tables.starts.push_back(run.tables.starts[i] + Interval(walk.half_steps[i].duration) -
-                                Interval(walk.overlaps[i]));
-  }
+  run.tables = LastWalk(episode);
+  run.tables.planned = half_step.form;
+  run.tables.com_height = Interval(run.robot.com_height) - Interval(run.crouch);
   std::vector<std::shared_ptr<const Scene>> worlds(episode.worlds.size());
   for (size_t j = 0; j < episode.begun.size(); ++j) {
     const verify::BegunRow& begun = episode.begun[j];
     const auto grant = static_cast<size_t>(begun.grant);
-    if (begun.half_step != static_cast<int>(j) + 1 || j >= walk.half_steps.size() ||
+    if (begun.half_step != static_cast<int>(j) + 1 || j >= run.tables.half_steps.size() ||
         grant >= episode.grants.size() ||
         static_cast<size_t>(episode.grants[grant].world) >= worlds.size()) {
       throw InputError({Formatted("begun.csv:%zu: names no half-step, grant or world", j + 2)});

@@ -29,8 +29,14 @@ std::string_view Name(EpisodeEnding ending) {
   return "";
 }
 
+WalkPlan Episode::Whole(size_t walk) const {
+  WalkPlan whole;
+  for (size_t k = 0; k <= walk; ++k) Join(walks.at(k).tail, &whole);
+  return whole;
+}
+
 SuperposedWalk Episode::Executed() const {
-  const SuperposedWalk walk = walks.back().plan.Walk();
+  const SuperposedWalk walk = Whole(walks.size() - 1).Walk();
   return stopped ? walk.StopBranch(begun.back().half_step) : walk;
 }
 

@@ -10,6 +10,7 @@
 #include "experiments/live/promise.h"
 #include "experiments/live/replanner.h"
 #include "experiments/live/sensor.h"
+#include "experiments/live/walk_tail.h"
 #include "experiments/live/world.h"
 #include "wpg/geometry/side.h"
 
@@ -30,12 +31,12 @@ struct ExecutedWalk {
   double t = 0.0;                              ///< when [s]; the first one at 0
   ProposalKind kind = ProposalKind::kChanged;  ///< why it was proposed
   std::string reason;                          ///< in words
-  WalkPlan plan;                               ///< the walk itself
+  WalkTail tail;                               ///< the walk, from the step of first_changed on
   int first_changed = 0;                       ///< half-step; those before are the walk's before
   double asked = 0.0;                          ///< when the replanner began to work on it [s]
   double measured = 0.0;                       ///< t_m of the world that it was made for [s]
   double check_s = 0.0, plan_s = 0.0, smooth_s = 0.0;  ///< of computing [s]
-  double effort = 0.0;  ///< of computing, as counted (Work::effort)
+  double effort = 0.0;                                 ///< of computing, as counted (Work::effort)
 };
 
 /// A permission to begin half-steps.
@@ -87,6 +88,8 @@ struct Episode {
   Promise promise{};         ///< whether it held (JudgePromise)
   double latest_tick = 0.0;  ///< by how much a tick of the wall clock came late at most [s]
 
+  /// A walk, by index, from its first half-step on.
+  WalkPlan Whole(size_t walk) const;
   /// The motion that was executed, which every walk of the record agrees with while it lasted.
   SuperposedWalk Executed() const;
 };

@@ -108,7 +108,8 @@ std::string EpisodeLoop::Awaited(double now) const {
 }
 
 void EpisodeLoop::Begins(int half_step) {
-  record_.begun.push_back({half_step, static_cast<int>(record_.grants.size()) - 1});
+  record_.begun.push_back(
+      {executor_->first() + half_step, static_cast<int>(record_.grants.size()) - 1});
   Tell(executor_->walk().start_of(half_step), "begins", "", half_step);
   const SuperposedWalk& executed = executor_->walk();
   const bool near = std::ranges::count(executor_->grant().near, half_step) > 0;
@@ -142,7 +143,11 @@ void EpisodeLoop::Ask(double now) {
                     checked_->valid_until() == std::numeric_limits<double>::infinity() &&
                     !DiffersClearly(*checked_, *world_);
   asked_about_ = same ? checked_ : world_;
+  const int less = executor_->Forget();
+  smoothed_.erase(smoothed_.begin(), smoothed_.begin() + less);
+  robot_through_ -= less;
   thinker_.Ask({.plan = executor_->plan(),
+                .first = executor_->first(),
                 .smoothed = smoothed_,
                 .grant = executor_->grant(),
                 .robot_through = robot_through_,
@@ -187,7 +192,7 @@ void EpisodeLoop::Take(const Proposal& proposal, double now) {
     }
     robot_through_ = proposal.robot_through;
     executor_->Take(proposal.grant);
-    record_.grants.push_back({now, walk(), proposal.grant});
+    Record(proposal.grant, now);
     const bool shortens = !asked_about_->course;
     if (searched && shortens && !stuck_ && --tries_ > 0) again_ = true;
   } else {
@@ -206,18 +211,22 @@ void EpisodeLoop::HandOver(const Proposal& proposal, double now) {
   smoothed_ = proposal.smoothed;
   robot_through_ = proposal.robot_through;
   course_ = proposal.course;
+  const int changed = std::max(0, std::min(proposal.first_changed, executor_->common()));
+  const int kept = std::min(changed / 2 * 2, executor_->plan().sequence.size() - 2);
+  WalkTail tail = TailOf(executor_->plan(), executor_->walk(), kept);
+  tail.first += executor_->first();
   record_.walks.push_back({.t = now,
                            .kind = proposal.kind,
                            .reason = proposal.reason,
-                           .plan = proposal.plan,
-                           .first_changed = proposal.first_changed,
+                           .tail = std::move(tail),
+                           .first_changed = executor_->first() + proposal.first_changed,
                            .asked = asked_,
                            .measured = asked_about_->measured_at,
                            .check_s = proposal.check_s,
                            .plan_s = proposal.plan_s,
                            .smooth_s = proposal.smooth_s,
                            .effort = proposal.effort});
-  record_.grants.push_back({now, walk(), proposal.grant});
+  Record(proposal.grant, now);
   Tell(now, "handed_over", std::string(Name(proposal.kind)) + ": " + proposal.reason,
        proposal.first_changed);
 }
@@ -259,6 +268,12 @@ void EpisodeLoop::TellCommand(double t, const std::shared_ptr<const Course>& bef
   Tell(t, "commanded", now ? now->Text() : "walk to the goal");
 }
 
+void EpisodeLoop::Record(Grant grant, double t) {
+  grant.through += executor_->first();
+  for (int& near : grant.near) near += executor_->first();
+  record_.grants.push_back({t, walk(), std::move(grant)});
+}
+
 void EpisodeLoop::Know(double t) {
   past_.Add(*world_);
   record_.worlds.push_back(*world_);
@@ -270,7 +285,7 @@ void EpisodeLoop::Tell(double t, const std::string& what, const std::string& tex
                             .what = what,
                             .version = world_->version,
                             .walk = walk(),
-                            .half_step = half_step,
+                            .half_step = half_step < 0 ? -1 : executor_->first() + half_step,
                             .text = text});
 }
 

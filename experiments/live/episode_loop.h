@@ -44,9 +44,12 @@ class EpisodeLoop {
   bool Ends(double now);
   // Whether the robot is to come to rest for good.
   bool IsToEnd() const { return hooks_.stop.stop_requested() || hooks_.ended.stop_requested(); }
+  // Of a grant that counts from t on, half-steps of the whole walk.
+  void Record(Grant grant, double t);
   void Know(double t);
   // Tells that another course is commanded than `before`, if it is.
   void TellCommand(double t, const std::shared_ptr<const Course>& before);
+  // `half_step` as the executor counts them.
   void Tell(double t, const std::string& what, const std::string& text, int half_step = -1);
   int walk() const { return static_cast<int>(record_.walks.size()) - 1; }
 

@@ -8,6 +8,7 @@
 #include "experiments/live/episode_tables.h"
 #include "experiments/live/judged_promise.h"
 #include "experiments/live/promise_words.h"
+#include "experiments/live/recorded_tables.h"
 #include "experiments/tables/csv_reader.h"
 #include "experiments/tables/given_walk_file.h"
 #include "experiments/tables/json_file.h"
@@ -21,55 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The tables of a folder, by columns. Of a journal, a line that was cut is left out.
-class Tables {
- public:
-  Tables(fs::path folder, bool is_journal) : folder_(std::move(folder)), is_journal_(is_journal) {}
-
-  const fs::path& folder() const { return folder_; }
-
-  CsvTable Of(const std::string& name) const {
-    const std::string path = (folder_ / (name + ".csv")).string();
-    std::string text = ReadCsvText(path);
-    if (is_journal_) text.resize(text.rfind('\n') + 1);
-    return ParseCsv(text, path);
-  }
-
- private:
-  fs::path folder_;
-  bool is_journal_;
-};
-
-// The entry of `all` whose name stands in a cell.
-template <typename Enum, size_t n>
-Enum Named(const std::array<Enum, n>& all, const std::string& name, const CsvTable& table,
-           size_t row) {
-  std::string valid;
-  for (const Enum one : all) {
-    if (Name(one) == name) return one;
-    valid += (valid.empty() ? "" : ", ") + std::string(Name(one));
-  }
-  throw InputError(
-      {table.path + Formatted(":%zu: ", row + 2) + Quote(name) + " (valid: " + valid + ")"});
-}
-
-// An index into a list that has `count` entries.
-size_t IndexIn(size_t count, double value, const CsvTable& table, size_t row,
-               const std::string& column) {
-  if (value >= 0.0 && value < static_cast<double>(count) && value == std::floor(value)) {
-    return static_cast<size_t>(value);
-  }
-  throw InputError({table.path + Formatted(":%zu: ", row + 2) + column + ": " +
-                    Formatted("%g: there are %zu (valid: from 0, below that)", value, count)});
-}
-
-std::vector<int> Integers(const CsvTable& table, const std::string& column) {
-  std::vector<int> integers;
-  for (const double value : table.Numbers(column)) integers.push_back(static_cast<int>(value));
-  return integers;
-}
-
-void ReadWorlds(const Tables& tables, const LiveConfig& config, const Place& place,
+void ReadWorlds(const RecordedTables& tables, const LiveConfig& config, const Place& place,
                 Episode* episode) {
   const CsvTable table = tables.Of("worlds");
   const std::vector<double> known = table.Numbers("known_s"),
@@ -99,7 +52,7 @@ void ReadWorlds(const Tables& tables, const LiveConfig& config, const Place& pla
   }
 }
 
-void ReadObstacles(const Tables& tables, const Place& place, Episode* episode) {
+void ReadObstacles(const RecordedTables& tables, const Place& place, Episode* episode) {
   const CsvTable table = tables.Of("obstacles");
   const std::vector<std::string> names = table.Texts("obstacle");
   std::vector<std::vector<double>> numbers;
@@ -129,7 +82,9 @@ void ReadObstacles(const Tables& tables, const Place& place, Episode* episode) {
   }
 }
 
-WalkPlan ReadWalk(const Tables& tables, size_t walk, const LiveConfig& config, const Place& place) {
+// The end of a walk whose beginning is that of the walk before it, which has `most` half-steps.
+WalkTail ReadWalk(const RecordedTables& tables, size_t walk, const LiveConfig& config,
+                  const Place& place, int most) {
   const CsvTable table = tables.Of(WalkFolder(walk) + "/footsteps");
   const std::vector<std::string> feet = table.Texts("foot");
   const std::vector<double> x = table.Numbers("x_m"), y = table.Numbers("y_m"),
@@ -152,15 +107,35 @@ WalkPlan ReadWalk(const Tables& tables, size_t walk, const LiveConfig& config, c
   }
   if (footsteps.empty()) throw InputError({table.path + ": no footsteps"});
   const HalfStepConfig& half_step = config.experiment.half_step;
-  WalkPlan plan;
+  const CsvTable half_steps = tables.Of(WalkFolder(walk) + "/half_steps");
+  const std::vector<int> number = Integers(half_steps, "half_step");
+  WalkTail tail{.first = number.empty() ? 0 : number.front() - 1, .plan = {}};
+  if (tail.first < 0 || tail.first > most || tail.first % 2 != 0) {
+    throw InputError({half_steps.path + Formatted(":2: half_step: %d (valid: odd, from 1 to %d)",
+                                                  tail.first + 1, most + 1)});
+  }
   const HalfStepShape shape = ShapeOf(half_step);
-  plan.sequence = MakeSequence(start, footsteps, half_step.via_lateral, shape,
-                               MotionModelOf(place.robot, shape));
-  plan.parameters = ReadParameters(tables.folder() / WalkFolder(walk), plan.sequence);
-  return plan;
+  tail.plan.sequence = MakeSequence(start, footsteps, half_step.via_lateral, shape,
+                                    MotionModelOf(place.robot, shape));
+  tail.plan.parameters =
+      ReadParameters(tables.folder() / WalkFolder(walk), tail.plan.sequence, tail.first);
+  if (tail.first == 0) return tail;
+  tail.begin = half_steps.Numbers("start_s").front();
+  tail.overlap = tables.Of(WalkFolder(walk) + "/overlaps").Numbers("overlap_s").front();
+  return tail;
 }
 
-void ReadWalks(const Tables& tables, const LiveConfig& config, const Place& place,
+// Puts it in place of the end of a walk. `path`: of its tables.
+void JoinRead(const WalkTail& tail, const std::string& path, WalkPlan* whole) {
+  Join(tail, whole);
+  if (tail.first == 0) return;
+  const double most = NaturalOverlapBound(whole->parameters, tail.first - 1) + kOverlapTolerance;
+  if (tail.overlap >= -kLongestRest && tail.overlap <= most) return;
+  throw InputError(
+      {path + Formatted("/overlaps.csv:2: overlap_s: %g (valid: up to %g)", tail.overlap, most)});
+}
+
+void ReadWalks(const RecordedTables& tables, const LiveConfig& config, const Place& place,
                Episode* episode) {
   const CsvTable table = tables.Of("plans"), timings = tables.Of("timings");
   const std::vector<double> t = table.Numbers("handed_over_s"), asked = table.Numbers("asked_s"),
@@ -172,11 +147,14 @@ void ReadWalks(const Tables& tables, const LiveConfig& config, const Place& plac
   const std::vector<int> first = Integers(table, "first_changed");
   const std::vector<std::string> kinds = table.Texts("kind"), reasons = table.Texts("reason");
   if (check.size() < t.size()) throw InputError({timings.path + ": has fewer rows than plans.csv"});
+  WalkPlan whole;
   for (size_t k = 0; k < t.size(); ++k) {
+    const WalkTail tail = ReadWalk(tables, k, config, place, whole.sequence.size());
+    JoinRead(tail, (tables.folder() / WalkFolder(k)).string(), &whole);
     episode->walks.push_back({.t = t[k],
                               .kind = Named(kProposalKinds, kinds[k], table, k),
                               .reason = reasons[k] == "none" ? "" : reasons[k],
-                              .plan = ReadWalk(tables, k, config, place),
+                              .tail = tail,
                               .first_changed = first[k] - 1,
                               .asked = asked[k],
                               .measured = measured[k],
@@ -187,7 +165,7 @@ void ReadWalks(const Tables& tables, const LiveConfig& config, const Place& plac
   }
 }
 
-void ReadGrants(const Tables& tables, Episode* episode) {
+void ReadGrants(const RecordedTables& tables, Episode* episode) {
   const CsvTable table = tables.Of("grants"), begun = tables.Of("begun");
   const std::vector<double> t = table.Numbers("t_s"), from = table.Numbers("proved_from_s"),
                             until = table.Numbers("valid_until_s"), walk = table.Numbers("walk");
@@ -209,7 +187,7 @@ void ReadGrants(const Tables& tables, Episode* episode) {
   }
 }
 
-void ReadEvents(const Tables& tables, Episode* episode) {
+void ReadEvents(const RecordedTables& tables, Episode* episode) {
   const CsvTable table = tables.Of("events");
   const std::vector<double> t = table.Numbers("t_s");
   const std::vector<std::string> what = table.Texts("event"), text = table.Texts("text");
@@ -225,7 +203,7 @@ void ReadEvents(const Tables& tables, Episode* episode) {
   }
 }
 
-Episode ReadTables(const Tables& tables, const LiveConfig& config, const Place& place) {
+Episode ReadTables(const RecordedTables& tables, const LiveConfig& config, const Place& place) {
   Episode episode;
   ReadWorlds(tables, config, place, &episode);
   ReadObstacles(tables, place, &episode);
@@ -260,7 +238,7 @@ Episode ReadEpisode(const fs::path& folder, const LiveConfig& config, const Plac
 }
 
 Episode ReadJournal(const fs::path& folder, const LiveConfig& config, const Place& place) {
-  const Tables tables(folder, true);
+  const RecordedTables tables(folder, true);
   Episode episode = ReadTables(tables, config, place);
   const CsvTable clock = tables.Of("clock");
   if (clock.rows.size() != 1 || episode.walks.empty() || episode.begun.empty()) {

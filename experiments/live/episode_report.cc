@@ -35,28 +35,28 @@ json Rounded(json value) {
 // Whether element i of a list of `count` is among every k-th, the last one included.
 bool IsShown(size_t i, size_t count, size_t k) { return i % k == 0 || i + 1 == count; }
 
-// Walks share most footsteps with the one before: `same` of the first ones are left out, and times
-// of half-steps, which the page does not need.
+// Of walks `same` footsteps are left out that are as in the one shown before, and times of
+// half-steps, which the page does not need.
 void AddWalks(const Episode& episode, bool lockstep, size_t k, json* messages) {
-  json before = json::array();
+  json all = json::array();  // footsteps of the walk
+  size_t same = 0;
   for (size_t i = 0; i < episode.walks.size(); ++i) {
-    if (!IsShown(i, episode.walks.size(), k)) continue;
     json message = WalkMessage(episode.walks[i], i);
     message.erase("half_steps");
+    const auto kept = message["same"].get<size_t>();
+    same = std::min(same, kept);
+    all.erase(all.begin() + static_cast<json::difference_type>(kept), all.end());
+    for (json& footstep : message["footsteps"]) all.push_back(std::move(footstep));
+    if (!IsShown(i, episode.walks.size(), k)) continue;
     // What computing took is another time whenever the episode is run.
     if (lockstep) {
       for (const char* key : {"check_s", "plan_s", "smooth_s"}) message.erase(key);
     }
-    json footsteps = std::move(message["footsteps"]);
-    size_t same = 0;
-    while (same < std::min(before.size(), footsteps.size()) && before[same] == footsteps[same]) {
-      ++same;
-    }
     message["same"] = same;
-    message["footsteps"] = json(std::vector<json>(
-        footsteps.begin() + static_cast<json::difference_type>(same), footsteps.end()));
+    message["footsteps"] =
+        json(std::vector<json>(all.begin() + static_cast<json::difference_type>(same), all.end()));
     messages->push_back(Rounded(std::move(message)));
-    before = std::move(footsteps);
+    same = all.size();
   }
 }
 

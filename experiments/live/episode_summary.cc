@@ -31,6 +31,10 @@ EpisodeSummary Summarize(const Episode& episode, const TrueWorld* truth, const R
   summary.ending = Name(episode.ending);
   summary.duration = episode.end;
   summary.half_steps = static_cast<int>(episode.begun.size());
+  std::vector<const EpisodeEvent*> begins;
+  for (const EpisodeEvent& event : episode.events) {
+    if (event.what == "begins") begins.push_back(&event);
+  }
   const bool is_commanded = CountOf(episode, "commanded") > 0;
   for (size_t k = 1; k < episode.walks.size(); ++k) {
     const ExecutedWalk& walk = episode.walks[k];
@@ -41,13 +45,13 @@ EpisodeSummary Summarize(const Episode& episode, const TrueWorld* truth, const R
     if (walk.kind != ProposalKind::kChanged && !commanded) continue;
     ++summary.changed;
     // A walk that goes on at its end as it was commanded was prompted by no measurement.
-    const auto planned = static_cast<int>(episode.walks[k - 1].plan.sequence.size());
+    const int planned = episode.walks[k - 1].tail.size();
     if (is_commanded && walk.first_changed >= planned) continue;
     summary.latencies.push_back(walk.t - walk.measured);
     int begun = 0;
-    for (const EpisodeEvent& event : episode.events) {
-      begun += event.what == "begins" && event.t > walk.measured && event.t <= walk.t &&
-               event.half_step < walk.first_changed && event.walk <= static_cast<int>(k);
+    for (const EpisodeEvent* event : begins) {
+      begun += event->t > walk.measured && event->t <= walk.t &&
+               event->half_step < walk.first_changed && event->walk <= static_cast<int>(k);
     }
     summary.begun_meanwhile.push_back(begun);
   }

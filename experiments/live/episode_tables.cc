@@ -92,8 +92,8 @@ CsvFile PlansCsv(const Episode& episode, size_t from) {
   for (size_t k = from; k < episode.walks.size(); ++k) {
     const ExecutedWalk& walk = episode.walks[k];
     csv.Cell(static_cast<long>(k)).Cell(walk.t).Cell(Name(walk.kind)).Cell(walk.asked);
-    csv.Cell(walk.measured).Cell(walk.first_changed + 1).Cell(walk.plan.sequence.num_steps());
-    csv.Cell(DurationOf(walk.plan.parameters)).Cell(OrNone(walk.reason)).EndRow();
+    csv.Cell(walk.measured).Cell(walk.first_changed + 1).Cell(walk.tail.size() / 2);
+    csv.Cell(walk.tail.end()).Cell(OrNone(walk.reason)).EndRow();
   }
   return csv.file();
 }
@@ -140,10 +140,11 @@ CsvFile TimingsCsv(const Episode& episode, size_t from) {
   return csv.file();
 }
 
-CsvFile OverlapsOf(const WalkPlan& plan) {
+CsvFile OverlapsOf(const WalkTail& tail) {
   CsvWriter csv({OverlapsColumns().front(), ColumnOf(ParameterFamily::kOverlap)});
-  for (size_t j = 0; j < plan.parameters.overlaps.size(); ++j) {
-    csv.Cell(static_cast<long>(j) + 1).Cell(plan.parameters.overlaps[j]).EndRow();
+  if (tail.first > 0) csv.Cell(tail.first).Cell(tail.overlap).EndRow();
+  for (size_t j = 0; j < tail.plan.parameters.overlaps.size(); ++j) {
+    csv.Cell(tail.first + static_cast<long>(j) + 1).Cell(tail.plan.parameters.overlaps[j]).EndRow();
   }
   return csv.file();
 }
@@ -163,11 +164,13 @@ std::vector<EpisodeTable> EpisodeTables(const Episode& episode, const EpisodePro
 std::string WalkFolder(size_t walk) { return Formatted("walks/%03zu", walk); }
 
 std::vector<EpisodeTable> WalkTables(const Episode& episode, size_t walk) {
-  const WalkPlan& plan = episode.walks[walk].plan;
+  const WalkTail& tail = episode.walks[walk].tail;
+  const WalkPlan& plan = tail.plan;
   const std::string place = WalkFolder(walk) + "/";
-  return {{place + "footsteps", FootstepsCsv(plan.sequence)},
-          {place + "half_steps", HalfStepsCsv(plan.sequence, plan.parameters)},
-          {place + "overlaps", OverlapsOf(plan)}};
+  return {
+      {place + "footsteps", FootstepsCsv(plan.sequence, tail.first / 2)},
+      {place + "half_steps", HalfStepsCsv(plan.sequence, plan.parameters, tail.first, tail.begin)},
+      {place + "overlaps", OverlapsOf(tail)}};
 }
 
 }  // namespace halfstep

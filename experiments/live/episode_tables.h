@@ -33,7 +33,8 @@ struct EpisodeProgress {
 /// before its own.
 std::vector<EpisodeTable> EpisodeTables(const Episode& episode, const EpisodeProgress& written);
 
-/// The tables of its walk with this index: "walks/007/footsteps", half_steps, overlaps.
+/// The tables of its walk with this index: "walks/007/footsteps", half_steps, overlaps; of its
+/// tail.
 std::vector<EpisodeTable> WalkTables(const Episode& episode, size_t walk);
 
 /// The folder of a walk that was handed over, from 0: "walks/007".

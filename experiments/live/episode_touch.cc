@@ -34,9 +34,11 @@ bool SamePlaces(const Scene& a, const Scene& b) {
 // Whether t is within a half-step that began.
 bool IsUnderWay(const SuperposedWalk& walk, const std::vector<BegunHalfStep>& begun, double t) {
   constexpr double kAtRest = 1e-9;  // [s]
-  return std::ranges::any_of(begun, [&](const BegunHalfStep& one) {
-    return walk.start_of(one.half_step) + kAtRest < t && t < walk.end_of(one.half_step) - kAtRest;
-  });
+  if (begun.empty()) return false;
+  // Ends are in order.
+  int i = std::min(walk.Locate(t).half_step, begun.back().half_step);
+  while (i >= 0 && walk.start_of(i) + kAtRest >= t) --i;
+  return i >= 0 && t < walk.end_of(i) - kAtRest;
 }
 
 // Calls `visit` of every body of the robot at the multiples of `period` up to `end` at which

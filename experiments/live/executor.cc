@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "experiments/live/recent_part.h"
+
 namespace halfstep {
 
 Executor::Executor(WalkPlan plan, const Grant& grant)
@@ -24,15 +26,32 @@ std::vector<int> Executor::Advance(double until) {
 
 std::string Executor::TakeOver(const WalkPlan& plan, const Grant& grant, double now) {
   const SuperposedWalk successor = plan.Walk();
-  if (CommonHalfSteps(walk_, successor) <= begun_) return "it changes a half-step that has begun";
+  const int common = CommonHalfSteps(walk_, successor);
+  if (common <= begun_) return "it changes a half-step that has begun";
   if (begun_ + 1 < successor.num_half_steps() && successor.start_of(begun_ + 1) < now) {
     return "its next half-step should have begun already";
   }
   plan_ = plan;
   walk_ = successor;
   grant_ = grant;
+  common_ = common;
   stopped_ = false;
   return "";
+}
+
+int Executor::Forget() {
+  std::optional<RecentPart> recent = RecentPart::Of(plan_, walk_, begun_);
+  if (!recent) return 0;
+  const int less = recent->first;
+  plan_ = std::move(recent->plan);
+  walk_ = plan_.Walk();
+  grant_.through -= less;
+  std::erase_if(grant_.near, [less](int near) { return near < less; });
+  for (int& near : grant_.near) near -= less;
+  begun_ -= less;
+  common_ -= less;
+  first_ += less;
+  return less;
 }
 
 }  // namespace halfstep

@@ -24,16 +24,19 @@ struct Grant {
 };
 
 /// Holds the walk that is being executed, and lets a half-step begin only when it is safe. A value;
-/// time is told to it.
+/// time is told to it. Half-steps count from first().
 class Executor {
  public:
   /// The walk begins at t = 0 with its half-step 0.
   Executor(WalkPlan plan, const Grant& grant);
 
-  const WalkPlan& plan() const { return plan_; }        ///< the walk as data
+  const WalkPlan& plan() const { return plan_; }        ///< the walk as data, or its recent part
   const SuperposedWalk& walk() const { return walk_; }  ///< the same walk as a function of time
   const Grant& grant() const { return grant_; }         ///< what may begin
   int begun() const { return begun_; }                  ///< the latest half-step that has begun
+  int first() const { return first_; }  ///< half-step of the whole walk that plan()'s 0 is; even
+  /// Half-steps that the walk has in common with the one that it took over from.
+  int common() const { return common_; }
   /// Whether nothing more begins: the walk ends with half-step begun().
   bool stopped() const { return stopped_; }
   /// When the motion comes to rest, as far as is known now [s].
@@ -55,11 +58,16 @@ class Executor {
   /// half-steps in common that have begun, and changes nothing before `now` [s].
   std::string TakeOver(const WalkPlan& plan, const Grant& grant, double now);
 
+  /// Forgets what is long past (RecentPart). Returns by how much half-steps count less from then
+  /// on.
+  int Forget();
+
  private:
   WalkPlan plan_;
   SuperposedWalk walk_;
   Grant grant_;
   int begun_ = 0;
+  int first_ = 0, common_ = 0;
   bool stopped_ = false;
 };
 

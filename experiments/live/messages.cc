@@ -51,10 +51,12 @@ json FootstepJson(Side side, const Foothold& X_WF, bool has_heights) {
   return footstep;
 }
 
-json FootstepsJson(const HalfStepSequence& sequence) {
+// Of a tail, without the soles at its start.
+json FootstepsJson(const HalfStepSequence& sequence, bool is_tail) {
   json footsteps = json::array();
   const bool has_heights = HasHeights(sequence);
   for (const Side side : {Side::kLeft, Side::kRight}) {
+    if (is_tail) break;
     footsteps.push_back(FootstepJson(side, Nth(sequence.start, Index(side)), has_heights));
   }
   for (int step = 0; step < sequence.num_steps(); ++step) {
@@ -126,10 +128,13 @@ json WorldMessage(const World& world, double known) {
 }
 
 json WalkMessage(const ExecutedWalk& walk, size_t index) {
-  const SuperposedWalk motion = walk.plan.Walk();
+  const WalkTail& tail = walk.tail;
+  const HomotopyParameters& of = tail.plan.parameters;
   json half_steps = json::array();
-  for (int i = 0; i < motion.num_half_steps(); ++i) {
-    half_steps.push_back({{"start_s", motion.start_of(i)}, {"end_s", motion.end_of(i)}});
+  double start = tail.begin;
+  for (size_t i = 0; i < of.durations.size(); ++i) {
+    half_steps.push_back({{"start_s", start}, {"end_s", start + of.durations[i]}});
+    if (i < of.overlaps.size()) start += of.durations[i] - of.overlaps[i];
   }
   return {{"type", "walk"},
           {"walk", index},
@@ -142,9 +147,24 @@ json WalkMessage(const ExecutedWalk& walk, size_t index) {
           {"check_s", walk.check_s},
           {"plan_s", walk.plan_s},
           {"smooth_s", walk.smooth_s},
-          {"duration_s", motion.duration()},
-          {"footsteps", FootstepsJson(walk.plan.sequence)},
+          {"duration_s", tail.end()},
+          {"same", tail.first == 0 ? 0 : tail.first / 2 + 2},
+          {"footsteps", FootstepsJson(tail.plan.sequence, tail.first > 0)},
           {"half_steps", half_steps}};
+}
+
+void MakeWhole(json before, json* message) {
+  const size_t same = (*message)["same"].get<size_t>();
+  if (same == 0) return;
+  (*message)["same"] = 0;
+  const auto follow = [&](const char* key, size_t kept) {
+    json& all = before[key];
+    all.erase(all.begin() + static_cast<json::difference_type>(kept), all.end());
+    for (json& one : (*message)[key]) all.push_back(std::move(one));
+    (*message)[key] = std::move(all);
+  };
+  follow("footsteps", same);
+  follow("half_steps", 2 * (same - 2));
 }
 
 json GrantMessage(const EpisodeGrant& grant, size_t index) {
@@ -164,9 +184,10 @@ json EventMessage(const EpisodeEvent& event) {
 }
 
 json StateMessage(const RobotModel& robot, const SuperposedWalk& executed, double t, bool stopped,
-                  bool held) {
-  return {{"type", "state"},    {"t_s", t},     {"half_step", executed.Locate(t).half_step + 1},
-          {"stopped", stopped}, {"held", held}, {"row", RowJson(robot, executed, t)}};
+                  bool held, int first) {
+  return {
+      {"type", "state"},    {"t_s", t},     {"half_step", first + executed.Locate(t).half_step + 1},
+      {"stopped", stopped}, {"held", held}, {"row", RowJson(robot, executed, t)}};
 }
 
 json MotionMessage(const RobotModel& robot, const SuperposedWalk& executed, size_t walk,

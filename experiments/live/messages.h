@@ -13,7 +13,7 @@
 namespace halfstep {
 
 /// The version of the messages between an episode and its clients; every change of a key raises it.
-constexpr int kProtocol = 2;
+constexpr int kProtocol = 3;
 
 /// What an episode tells its clients, one JSON object each, with the key `type`; the other keys:
 /// experiments/server/README.md. Lengths [m], angles [rad], times of the walk [s], frame W.
@@ -27,15 +27,18 @@ nlohmann::json HelloMessage(const LiveConfig& config, const RobotModel& robot, c
 nlohmann::json WaitingMessage(std::string_view reason);
 /// `known`: when the world became known [s].
 nlohmann::json WorldMessage(const World& world, double known);
-/// A walk that was handed over; `index` counts them from 0.
+/// A walk that was handed over, from the step on that changed; `index` counts them from 0.
 nlohmann::json WalkMessage(const ExecutedWalk& walk, size_t index);
+/// Makes the walk whole in the message, given that of the walk before it as it was made whole.
+void MakeWhole(nlohmann::json before, nlohmann::json* message);
 /// A grant; `index` counts them from 0.
 nlohmann::json GrantMessage(const EpisodeGrant& grant, size_t index);
 /// Something that happened.
 nlohmann::json EventMessage(const EpisodeEvent& event);
 /// The instant t [s] of the motion in execution. `held`: nothing more is to begin.
+/// `first`: half-step of the whole walk that the motion's 0 is.
 nlohmann::json StateMessage(const RobotModel& robot, const SuperposedWalk& executed, double t,
-                            bool stopped, bool held);
+                            bool stopped, bool held, int first = 0);
 /// The motion in execution from `from` to `until` [s], or to its end when that is earlier, in rows
 /// `period` [s] apart; the first one at `from`.
 nlohmann::json MotionMessage(const RobotModel& robot, const SuperposedWalk& executed, size_t walk,

@@ -17,7 +17,8 @@ namespace halfstep {
 
 /// What a replanner is asked about: a walk in execution, and the world.
 struct Situation {
-  WalkPlan plan;               ///< the walk in execution, from its first half-step
+  WalkPlan plan;  ///< the walk in execution, or its RecentPart: from here half-steps count
+  int first = 0;  ///< of the walk's half-steps the one that the plan's 0 is, for words
   std::vector<bool> smoothed;  ///< by junction: its overlap was found already
   Grant grant;                 ///< what is proved of it
   int robot_through = -1;      ///< what does not depend on the world is proved up to this half-step

@@ -2,29 +2,20 @@
 
 #include <optional>
 
-#include "experiments/live/proposal.h"
+#include "smoothing/walk/splice.h"
 
 namespace halfstep {
 
-/// What of a situation a replanner needs to know: the walk without most of what is past, so that
-/// what it thinks costs the same however long the robot has walked. In place of the past stands one
-/// step that is over, and a rest until half-steps begin as they do: at the same times, to the bit.
-/// So the motion is the same from then on.
-class RecentPart {
- public:
-  /// None where little is past.
-  static std::optional<RecentPart> Of(const Situation& s);
+/// A walk in execution without most of what is past, so that what it costs to hold it and to think
+/// about it does not grow with what was walked. In place of the past stands a step that is over,
+/// one more for each hour, and a rest until half-steps begin as they do: at the same times, to the
+/// bit. So the motion is the same from then on.
+struct RecentPart {
+  WalkPlan plan;  ///< of it
+  int first = 0;  ///< half-step of the walk that its 0 is; even
 
-  const Situation& situation() const { return recent_; }  ///< half-steps count from first()
-  int first() const { return first_; }                    ///< the half-step that is its 0
-  /// The same proposal of the whole walk.
-  Proposal Whole(Proposal proposal) const;
-
- private:
-  Situation recent_;
-  WalkPlan past_;               // the whole walk
-  std::vector<bool> smoothed_;  // of it
-  int first_ = 0;
+  /// None where little is past. `begun`: the latest half-step that has begun.
+  static std::optional<RecentPart> Of(const WalkPlan& plan, const SuperposedWalk& walk, int begun);
 };
 
 }  // namespace halfstep

@@ -7,7 +7,6 @@
 #include "experiments/live/near_rest.h"
 #include "experiments/live/overlap_search.h"
 #include "experiments/live/prepared_world.h"
-#include "experiments/live/recent_part.h"
 #include "experiments/run/planning.h"
 #include "wpg/nth.h"
 
@@ -204,15 +203,15 @@ std::vector<int> Replanner::Junctions(const Situation& s, const SuperposedWalk& 
   return junctions;
 }
 
-Proposal Replanner::Propose(const Situation& s, const PreparedWorld& among,
-                            std::mt19937_64& random) const {
-  const std::optional<RecentPart> recent = RecentPart::Of(s);
-  return recent ? recent->Whole(ProposeFrom(recent->situation(), among, random))
-                : ProposeFrom(s, among, random);
+std::string Replanner::Describe(const Situation& s, const PreparedWorld& among,
+                                Margin refused) const {
+  refused.at.half_step += s.first;
+  if (refused.stop_after >= 0) refused.stop_after += s.first;
+  return among.safety.evaluator().Describe(refused);
 }
 
-Proposal Replanner::ProposeFrom(const Situation& s, const PreparedWorld& among,
-                                std::mt19937_64& random) const {
+Proposal Replanner::Propose(const Situation& s, const PreparedWorld& among,
+                            std::mt19937_64& random) const {
   const double begin = SteadySeconds();
   Proposal proposal = WalkOf(s);
   const SuperposedWalk walk = proposal.plan.Walk();
@@ -234,7 +233,7 @@ Proposal Replanner::ProposeFrom(const Situation& s, const PreparedWorld& among,
     Improve(s, among, near, random, &proposal);
     return proposal;
   }
-  proposal.reason = refused       ? among.safety.evaluator().Describe(*refused)
+  proposal.reason = refused       ? Describe(s, among, *refused)
                     : planned_for ? "to go on as commanded"
                     : course      ? "another command: " + among.world.course->Text()
                                   : "the walk does not end in the goal";

@@ -53,9 +53,8 @@ class Replanner {
 
  private:
   bool Arrives(const WalkPlan& plan, const World& world) const;
-  // As Propose; `s` need not have all that is past.
-  Proposal ProposeFrom(const Situation& s, const PreparedWorld& among,
-                       std::mt19937_64& random) const;
+  // A refusal in words that name the half-step of the whole walk.
+  std::string Describe(const Situation& s, const PreparedWorld& among, Margin refused) const;
   // `near`: of the first half-step, null: none. `rests`: before it the robot rests, so that there
   // is time to prove half-steps themselves where volumes are in the way.
   PlanResult Plan(const std::array<Foothold, 2>& stance, const std::optional<StepState>& in_air,

@@ -149,7 +149,7 @@ bool Replanner::Follow(const Situation& s, const WalkPlan& plan, int junction, c
     proposal->reason += ShortfallText(steps);
     return true;
   }
-  const std::string why = "the way is blocked: " + among.safety.evaluator().Describe(*refused);
+  const std::string why = "the way is blocked: " + Describe(s, among, *refused);
   if (course.Rests()) {
     proposal->planned = Refused(why);
     // Where the feet cannot be closed the robot rests as it stands.
@@ -202,7 +202,7 @@ bool Replanner::FollowList(const Situation& s, const WalkPlan& plan, int junctio
   }
   const auto last = static_cast<int>(footsteps.size()) - 1;
   const int listed = std::clamp(ListedAt(refused->at.half_step, junction), 0, last);
-  proposal->planned = Refused(course.NameOf(listed) + among.safety.evaluator().Describe(*refused));
+  proposal->planned = Refused(course.NameOf(listed) + Describe(s, among, *refused));
   return false;
 }
 

@@ -37,7 +37,8 @@ std::vector<std::optional<PlacedVolume>> VolumesOf(const SuperposedWalk& walk,
   return placed;
 }
 
-json VolumesMessage(const std::vector<std::optional<PlacedVolume>>& half_steps, size_t walk) {
+json VolumesMessage(const std::vector<std::optional<PlacedVolume>>& half_steps, size_t walk,
+                    int first) {
   json all = json::array();
   for (const std::optional<PlacedVolume>& one : half_steps) {
     if (!one) {
@@ -48,7 +49,10 @@ json VolumesMessage(const std::vector<std::optional<PlacedVolume>>& half_steps, 
                    {"mirrored", one->mirrored},
                    {"X_WS", {one->X_WS.x, one->X_WS.y, one->X_WS.yaw}}});
   }
-  return {{"type", "volumes"}, {"walk", walk}, {"half_steps", std::move(all)}};
+  return {{"type", "volumes"},
+          {"walk", walk},
+          {"first_half_step", first + 1},
+          {"half_steps", std::move(all)}};
 }
 
 json VolumeMessage(int volume, const SweptVolumes& volumes) {

@@ -22,9 +22,10 @@ struct PlacedVolume {
 std::vector<std::optional<PlacedVolume>> VolumesOf(const SuperposedWalk& walk,
                                                    const SweptVolumes& volumes);
 
-/// The message `volumes` (experiments/server/README.md) of the walk with this index.
+/// The message `volumes` (experiments/server/README.md) of the walk with this index, from half-step
+/// `first` on.
 nlohmann::json VolumesMessage(const std::vector<std::optional<PlacedVolume>>& half_steps,
-                              size_t walk);
+                              size_t walk, int first = 0);
 
 /// The message `volume`, as cells, seen from a left support. Cells are merged while there are too
 /// many for a picture. Precondition: VolumesOf() names the volume.

@@ -1,4 +1,4 @@
-// What was told of an episode, by messages of protocol 2, and what of it was true at a time.
+// What was told of an episode, by messages of protocol 3, and what of it was true at a time.
 import { readable } from "./words.js";
 
 // The last element of a list in the order of `key` that is not after t.
@@ -20,6 +20,7 @@ function put(list, message, name) {
 }
 
 const mostEvents = 2000;
+const mostWholes = 100;
 const mostWorlds = 5000; // a live page forgets what is older
 
 export class EpisodeRecord {
@@ -27,6 +28,7 @@ export class EpisodeRecord {
     this.hello = null;
     this.worlds = [];
     this.walks = [];
+    this.wholes = new Map(); // walks with all of their footsteps, those asked for of late
     this.grants = [];
     this.events = [];
     this.waiting = null; // why there is no walk yet
@@ -71,7 +73,7 @@ export class EpisodeRecord {
   }
 
   worldAt(t) { return lastUntil(this.worlds, "known_s", t) ?? this.worlds[0]; }
-  walkAt(t) { return lastUntil(this.walks, "handed_over_s", t) ?? this.walks[0]; }
+  walkAt(t) { return this.whole(lastUntil(this.walks, "handed_over_s", t) ?? this.walks[0]); }
   grantAt(t) { return lastUntil(this.grants, "t_s", t); }
   eventsUntil(t) { return this.events.filter((event) => event.t_s <= t); }
 
@@ -81,9 +83,27 @@ export class EpisodeRecord {
     for (let i = this.walks.length - 1; i > 0; --i) {
       const age = t - this.walks[i].handed_over_s;
       if (age > span) break;
-      if (age >= 0) pairs.push([this.walks[i - 1], this.walks[i], age]);
+      if (age >= 0) pairs.push([this.whole(this.walks[i - 1]), this.whole(this.walks[i]), age]);
     }
     return pairs;
+  }
+
+  // A walk with all of its footsteps: the first `same` are those of the walk told before it.
+  whole(walk) {
+    if (!walk?.same) return walk;
+    if (this.wholes.size > mostWholes) this.wholes.clear();
+    if (!this.wholes.has(walk)) {
+      const parts = [walk.footsteps];
+      let missing = walk.same;
+      for (let i = this.walks.lastIndexOf(walk) - 1; i >= 0 && missing > 0; --i) {
+        const { same, footsteps } = this.walks[i];
+        if (same >= missing) continue;
+        parts.unshift(footsteps.slice(0, missing - same));
+        missing = same;
+      }
+      this.wholes.set(walk, { ...walk, footsteps: parts.flat() });
+    }
+    return this.wholes.get(walk);
   }
 }
 

@@ -259,12 +259,7 @@ function showTimeline() {
 }
 
 function play() {
-  let before = [];
-  for (const message of data.messages) {
-    // The first `same` footsteps of a recorded walk are those of the one before.
-    if (message.type === "walk") before = message.footsteps = [...before.slice(0, message.same), ...message.footsteps];
-    take(message);
-  }
+  for (const message of data.messages) take(message);
   Object.assign(byId("connection"), { textContent: data.outcome, title: data.outcome });
   if (!data.motion) return;
   walk = new Walk({ summary: { method: "executed" }, ...data.motion });

@@ -1,4 +1,4 @@
-// Messages of protocol 2 over a WebSocket, from the server that served this page.
+// Messages of protocol 3 over a WebSocket, from the server that served this page.
 
 const statePeriod = 0.03; // at least; the control period when that is longer [s]
 const motionSpan = 3; // of the walk to come [s]

@@ -24,7 +24,8 @@ export class VolumesToCome {
       this.message = message;
       this.begun = begun;
       this.group.clear(); // shapes are kept for the next plan
-      message.half_steps.forEach((half, i) => {
+      message.half_steps.forEach((half, k) => {
+        const i = message.first_half_step - 1 + k;
         if (half === null || i < begun || !cells.has(half.volume)) return;
         const shape = this.shapeOf(half.volume, cells.get(half.volume));
         if (!shape) return;

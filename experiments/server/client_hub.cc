@@ -36,9 +36,13 @@ void ClientHub::Join(ClientLine* line) {
   clients_.emplace(line, Client{});
   inbox_.Come();
   line->Send(hello_);
-  for (const char* kind : {"waiting", "world", "walk", "grant"}) {
+  const auto tell = [&](const char* kind) {
     if (const auto text = newest_.find(kind); text != newest_.end()) line->Send(text->second);
-  }
+  };
+  tell("waiting");
+  tell("world");
+  if (!walk_.is_null()) line->Send(TextOf(walk_));
+  tell("grant");
 }
 
 void ClientHub::Leave(ClientLine* line) {
@@ -141,7 +145,10 @@ void ClientHub::Announce() {
   }
   for (size_t i = 0; i < news.walks.size(); ++i) {
     newest_.erase("waiting");
-    Keep("walk", WalkMessage(news.walks[i], news.first_walk + i));
+    nlohmann::json message = WalkMessage(news.walks[i], news.first_walk + i);
+    Broadcast(TextOf(message));
+    MakeWhole(std::move(walk_), &message);
+    walk_ = std::move(message);
   }
   for (size_t i = 0; i < news.grants.size(); ++i) {
     Keep("grant", GrantMessage(news.grants[i], news.first_grant + i));
@@ -176,8 +183,8 @@ void ClientHub::TellStates() {
     // A thousandth of the control period is rounding of ticks.
     client.state_due = latest_.now + client.wants.state_period - 1e-3 * period_;
     if (!state) {
-      state = TextOf(
-          StateMessage(robot_, *latest_.executed, latest_.now, latest_.stopped, latest_.held));
+      state = TextOf(StateMessage(robot_, *latest_.executed, latest_.now, latest_.stopped,
+                                  latest_.held, latest_.first_half_step));
     }
     line->Send(state);
   }
@@ -192,7 +199,7 @@ void ClientHub::TellVolumesTo(ClientLine* line, Client* client) {
     if (!text) text = TextOf(VolumeMessage(one->volume, *volumes_));
     line->Send(text);
   }
-  line->Send(TextOf(VolumesMessage(placed, latest_.num_walks - 1)));
+  line->Send(TextOf(VolumesMessage(placed, latest_.num_walks - 1, latest_.first_half_step)));
 }
 
 ClientHub::Text ClientHub::Motion(double ahead) const {

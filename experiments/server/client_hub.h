@@ -87,7 +87,8 @@ class ClientHub {
   ClientLine* controls_ = nullptr;  // the client that does; null: none, or it has gone
   std::map<ClientLine*, Client> clients_;
   Text hello_, drawing_;
-  std::map<std::string, Text> newest_;  // by kind
+  std::map<std::string, Text> newest_;  // by kind, but for walks
+  nlohmann::json walk_;                 // the newest, whole; null: there is none
   std::shared_ptr<const SweptVolumes> volumes_;
   std::map<int, Text> volume_texts_;                  // that somebody wanted
   EpisodeNews latest_;                                // its motion and its time

@@ -52,7 +52,10 @@ void NewsBoard::Tick(const EpisodeTick& tick, bool held) {
                      record.known.end());
   AppendFrom(record.worlds, &worlds_, &fresh.worlds);
   const bool another = record.walks.size() > walks_ || tick.executor.stopped() != stopped_;
-  if (another) executed_ = std::make_shared<const SuperposedWalk>(tick.executor.executed());
+  if (another) {
+    executed_ = std::make_shared<const SuperposedWalk>(tick.executor.executed());
+    first_half_step_ = tick.executor.first();
+  }
   stopped_ = tick.executor.stopped();
   AppendFrom(record.walks, &walks_, &fresh.walks);
   AppendFrom(record.grants, &grants_, &fresh.grants);
@@ -67,6 +70,7 @@ void NewsBoard::Tick(const EpisodeTick& tick, bool held) {
     news->first_walk = walks_ - news->walks.size();
     news->first_grant = grants_ - news->grants.size();
     news->executed = executed_;
+    news->first_half_step = first_half_step_;
     news->num_walks = walks_;
     news->now = tick.now;
     news->stopped = stopped_;

@@ -23,8 +23,9 @@ struct EpisodeNews {
   size_t first_walk = 0, first_grant = 0;       ///< the index of the first of these
   /// The motion in execution, and the number of walks until now; null before there is one.
   std::shared_ptr<const SuperposedWalk> executed;
-  size_t num_walks = 0;  ///< so far
-  double now = 0.0;      ///< [s]
+  int first_half_step = 0;  ///< of the whole walk the one that the motion's 0 is
+  size_t num_walks = 0;     ///< so far
+  double now = 0.0;         ///< [s]
   /// Whether nothing more begins; whether a client holds the robot.
   bool stopped = false, held = false;
   std::vector<std::string> refusals;  ///< of what clients wanted
@@ -53,6 +54,7 @@ class NewsBoard {
   // Of the thread of the episode: how much of the record was told.
   size_t worlds_ = 0, walks_ = 0, grants_ = 0, events_ = 0;
   std::shared_ptr<const SuperposedWalk> executed_;
+  int first_half_step_ = 0;
   bool stopped_ = false;
 
   std::mutex mutex_;  // of what follows

@@ -21,12 +21,15 @@ std::string PlainCsvText(const std::string& path) {
 }
 
 GivenTable::GivenTable(const std::string& path, const CsvColumns& known, size_t rows,
-                       const std::string& what, Complaints* complaints)
+                       const std::string& what, Complaints* complaints, size_t skipped)
     : text_(PlainCsvText(path)),
       csv_(ParseCsv(text_, path)),
       places_(CsvPlaces(text_)),
       complaints_(complaints) {
   CheckHeader(known);
+  const auto left_out = static_cast<std::ptrdiff_t>(std::min(skipped, csv_.rows.size()));
+  csv_.rows.erase(csv_.rows.begin(), csv_.rows.begin() + left_out);
+  places_.erase(places_.begin() + 1, places_.begin() + 1 + left_out);
   if (csv_.rows.size() == rows) return;
   Complain(0, 0,
            std::to_string(csv_.rows.size()) + " rows for " + std::to_string(rows) + " " + what +

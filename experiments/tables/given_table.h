@@ -21,8 +21,9 @@ class GivenTable {
  public:
   /// `rows` is how many the sequence asks for, one for each of `what`. Borrows `complaints`. Throws
   /// InputError for a file that cannot be read or is no CSV.
+  /// `skipped`: so many rows before them are left out.
   GivenTable(const std::string& path, const CsvColumns& known, size_t rows, const std::string& what,
-             Complaints* complaints);
+             Complaints* complaints, size_t skipped = 0);
 
   size_t num_rows() const { return fits_ ? csv_.rows.size() : 0; }  ///< 0: not as many as asked for
   std::optional<size_t> Find(const std::string& name) const;        ///< the column's index

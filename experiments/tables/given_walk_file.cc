@@ -20,17 +20,20 @@ constexpr double kSameAsWalk = 1e-9;  // columns that tell what the walk has any
 class GivenWalkReader {
  public:
   /// Of a run's tables: `whole`, none of the columns that every run writes may be left out.
+  /// `before`: half-steps of the walk that are before the sequence.
   GivenWalkReader(const HalfStepSequence& sequence, const std::vector<FixedParameter>& fixed,
-                  bool whole)
+                  bool whole, int before = 0)
       : sequence_(sequence),
         fixed_(fixed),
         whole_(whole),
+        before_(static_cast<size_t>(before)),
         walk_(ParameterTable(sequence, fixed).Start()) {}
 
   HomotopyParameters Read(const GivenWalkFiles& files) {
     if (!files.overlaps.empty()) {
       overlaps_.emplace(files.overlaps, OverlapsColumns(),
-                        static_cast<size_t>(sequence_.num_junctions()), "junctions", &complaints_);
+                        static_cast<size_t>(sequence_.num_junctions()), "junctions", &complaints_,
+                        before_ > 0 ? 1 : 0);
       CheckRowNames(&*overlaps_, "junction", [](size_t i) {
         return KindOfJunction(static_cast<int>(i)) == JunctionKind::kUpDown ? "up_down" : "down_up";
       });
@@ -78,7 +81,7 @@ class GivenWalkReader {
   }
   template <typename Kind>
   void CheckRowNames(GivenTable* table, const std::string& index, const Kind& kind) {
-    CheckTexts(table, index, [](size_t row) { return std::to_string(row + 1); });
+    CheckTexts(table, index, [this](size_t row) { return std::to_string(before_ + row + 1); });
     CheckTexts(table, "kind", [&kind](size_t row) { return std::string(kind(row)); });
   }
 
@@ -170,6 +173,7 @@ class GivenWalkReader {
   const HalfStepSequence& sequence_;
   const std::vector<FixedParameter>& fixed_;
   const bool whole_;
+  const size_t before_;
   HomotopyParameters walk_;
   Complaints complaints_;
   std::optional<GivenTable> overlaps_, half_steps_;
@@ -183,12 +187,12 @@ HomotopyParameters ReadGivenWalk(const GivenWalkFiles& files, const HalfStepSequ
 }
 
 HomotopyParameters ReadParameters(const std::filesystem::path& folder,
-                                  const HalfStepSequence& sequence) {
+                                  const HalfStepSequence& sequence, int before) {
   const auto found = [&folder](const char* table) {
     return std::filesystem::exists(folder / table) ? (folder / table).string() : "";
   };
   const std::vector<FixedParameter> none;
-  return GivenWalkReader(sequence, none, /*whole=*/true)
+  return GivenWalkReader(sequence, none, /*whole=*/true, before)
       .Read({.overlaps = found("overlaps.csv"), .half_steps = found("half_steps.csv")});
 }
 

@@ -23,8 +23,10 @@ HomotopyParameters ReadGivenWalk(const GivenWalkFiles& files, const HalfStepSequ
 
 /// The same from the tables of a method's folder, which have all columns that a run writes.
 /// Families whose table is not there, as overlaps.csv of the planned motion, are as planned.
+/// `before`: the sequence is the end of a walk, so many half-steps are before it, and overlaps.csv
+/// begins with the overlap between the last of them and the first of these.
 HomotopyParameters ReadParameters(const std::filesystem::path& folder,
-                                  const HalfStepSequence& sequence);
+                                  const HalfStepSequence& sequence, int before = 0);
 
 /// Sorts files of the command line by their columns: the one with overlaps, and the one with rows
 /// of half-steps. Throws InputError for a file that is neither, and for two of a kind.

@@ -60,14 +60,16 @@ CsvColumns HalfStepsColumns(HalfStepsExtent extent) {
   return columns;
 }
 
-CsvFile HalfStepsCsv(const HalfStepSequence& sequence, const HomotopyParameters& parameters) {
+CsvFile HalfStepsCsv(const HalfStepSequence& sequence, const HomotopyParameters& parameters,
+                     int before, double begin) {
   const HalfStepsExtent extent = ExtentOf(sequence, parameters);
   const std::vector<ParameterFamily> families = FamiliesOfHalfSteps(extent);
   CsvWriter csv(HalfStepsColumns(extent));
-  double start = 0.0;
+  double start = begin;
   for (size_t i = 0; i < sequence.half_steps.size(); ++i) {
     const HalfStep& half_step = sequence.half_steps[i].half_step;
-    csv.Cell(static_cast<long>(i) + 1).Cell(half_step.kind == HalfStepKind::kUp ? "up" : "down");
+    csv.Cell(before + static_cast<long>(i) + 1)
+        .Cell(half_step.kind == HalfStepKind::kUp ? "up" : "down");
     csv.Cell(Name(half_step.support)).Cell(start);
     for (const ParameterFamily family : families) {
       const int index = Traits(family).index_at(static_cast<int>(i));

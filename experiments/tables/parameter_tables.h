@@ -20,6 +20,8 @@ std::vector<ParameterFamily> FamiliesOfHalfSteps(HalfStepsExtent extent);
 /// The columns of half_steps.csv.
 CsvColumns HalfStepsColumns(HalfStepsExtent extent);
 /// half_steps.csv: one row a half-step, with where the homotopy ended.
-CsvFile HalfStepsCsv(const HalfStepSequence& sequence, const HomotopyParameters& parameters);
+/// `before` half-steps are before those of the sequence, which begin at `begin` [s].
+CsvFile HalfStepsCsv(const HalfStepSequence& sequence, const HomotopyParameters& parameters,
+                     int before = 0, double begin = 0.0);
 
 }  // namespace halfstep

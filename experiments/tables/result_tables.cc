@@ -71,7 +71,7 @@ CsvColumns FootstepsColumns(bool with_heights, bool with_rests) {
   return columns;
 }
 
-CsvFile FootstepsCsv(const HalfStepSequence& sequence) {
+CsvFile FootstepsCsv(const HalfStepSequence& sequence, int before) {
   const bool has_heights = HasHeights(sequence), has_rests = HasRests(sequence);
   CsvWriter csv(FootstepsColumns(has_heights, has_rests));
   const auto row = [&](int index, const Footstep& footstep) {
@@ -90,12 +90,12 @@ CsvFile FootstepsCsv(const HalfStepSequence& sequence) {
   }
   for (int step = 0; step < sequence.num_steps(); ++step) {
     const PlacedHalfStep& down = Nth(sequence.half_steps, 2 * step + 1);
-    row(step + 1, {.side = down.half_step.swing(),
-                   .X_WF = OnItsLevel(down.X_WS * down.half_step.X_SF),
-                   .via_height = down.half_step.via_height,
-                   .duration = down.half_step.duration,
-                   .rest = Nth(sequence.half_steps, 2 * step).rest,
-                   .rest_on_one_foot = down.rest});
+    row(before + step + 1, {.side = down.half_step.swing(),
+                            .X_WF = OnItsLevel(down.X_WS * down.half_step.X_SF),
+                            .via_height = down.half_step.via_height,
+                            .duration = down.half_step.duration,
+                            .rest = Nth(sequence.half_steps, 2 * step).rest,
+                            .rest_on_one_foot = down.rest});
   }
   return csv.file();
 }

@@ -44,7 +44,8 @@ bool HasRests(const HalfStepSequence& sequence);
 /// those of a plan that rests its rests.
 CsvColumns FootstepsColumns(bool with_heights, bool with_rests);
 /// Each table of a run folder; columns: experiments/files.md.
-CsvFile FootstepsCsv(const HalfStepSequence& sequence);
+/// `before`: so many footsteps are taken before those of the sequence.
+CsvFile FootstepsCsv(const HalfStepSequence& sequence, int before = 0);
 /// Columns of overlaps.csv.
 CsvColumns OverlapsColumns();
 /// One row a junction.

@@ -67,7 +67,7 @@ void CheckGrants(const EpisodeText& episode, Findings* findings) {
 // Why a half-step, from 0, may not begin by a grant; "": it may.
 std::string WhyNot(const EpisodeText& episode, const EpisodeWalks& all, int half_step,
                    const GrantRow& grant) {
-  const auto [begin, end] = all.walks.back().WindowOf(half_step);
+  const auto [begin, end] = all.last->WindowOf(half_step);
   if (!(grant.t <= begin + kTick)) {
     return Formatted("begins at %.9g s, but its grant counts from %.9g s on", begin, grant.t);
   }
@@ -104,21 +104,20 @@ bool CheckGrantNumbers(const EpisodeText& episode, const EpisodeWalks& all, Find
   Faults grants, begun;
   for (size_t g = 0; g < episode.grants.size(); ++g) {
     const GrantRow& grant = episode.grants[g];
-    if (grant.walk >= static_cast<int>(all.walks.size())) {
+    if (grant.walk >= std::ssize(all.sizes)) {
       grants.Add(LineOfGrant(g) + Formatted("there is no walk %d", grant.walk));
-    } else if (grant.through > Nth(all.walks, grant.walk).num_half_steps()) {
+    } else if (grant.through > Nth(all.sizes, grant.walk)) {
       grants.Add(LineOfGrant(g) + Formatted("through half-step %d, but walk %d has %d",
-                                            grant.through, grant.walk,
-                                            Nth(all.walks, grant.walk).num_half_steps()));
+                                            grant.through, grant.walk, Nth(all.sizes, grant.walk)));
     }
     if (grant.world >= static_cast<int>(episode.worlds.size())) {
       grants.Add(LineOfGrant(g) + Formatted("there is no world %d", grant.world));
     }
   }
   if (episode.begun.empty()) findings->Disagree("begun.csv: no half-step began");
-  if (std::ssize(episode.begun) > all.walks.back().num_half_steps()) {
+  if (std::ssize(episode.begun) > all.last->num_half_steps()) {
     findings->Disagree(Formatted("begun.csv: %zu half-steps, but the last walk has %d",
-                                 episode.begun.size(), all.walks.back().num_half_steps()));
+                                 episode.begun.size(), all.last->num_half_steps()));
   }
   for (size_t i = 0; i < episode.begun.size(); ++i) {
     const BegunRow& row = episode.begun[i];

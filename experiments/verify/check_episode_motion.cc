@@ -51,7 +51,7 @@ bool StandsInGoal(const std::array<Foothold, 2>& stance, const EpisodeGoal& of_e
 }  // namespace
 
 DescribedWalk ExecutedWalk(const EpisodeText& episode, const EpisodeWalks& all, bool stopped) {
-  const DescribedWalk& last = all.walks.back();
+  const DescribedWalk& last = *all.last;
   return stopped ? last.StopBranch(static_cast<int>(episode.begun.size()) - 1) : last;
 }
 
@@ -103,8 +103,7 @@ void CheckEpisodeTrajectory(const std::vector<PlayedRow>& rows, const EpisodeMan
 void CheckEpisodeEnding(const EpisodeText& episode, const EpisodeManifest& manifest,
                         const EpisodeWalks& all, const DescribedWalk& executed,
                         const EpisodeGoal& goal, Findings* findings) {
-  if (manifest.stopped &&
-      static_cast<int>(episode.begun.size()) >= all.walks.back().num_half_steps()) {
+  if (manifest.stopped && static_cast<int>(episode.begun.size()) >= all.last->num_half_steps()) {
     findings->Disagree("manifest.json: stopped: nothing of the last walk was left to be cut");
   }
   constexpr std::array<const char*, 8> kOthers = {"stuck", "too_long",     "ended",  "interrupted",
@@ -125,7 +124,7 @@ void CheckEpisodeEnding(const EpisodeText& episode, const EpisodeManifest& manif
   if (!(executed.end() <= manifest.end + kEndRounding)) {
     return wrong(Formatted("it walks until %.9g s", executed.end()));
   }
-  const auto& [down, X_WS, rest] = all.planned.back().half_steps[begun - 1];
+  const auto& [down, X_WS, rest] = all.planned.half_steps[begun - 1];
   std::array<Foothold, 2> feet;
   Nth(feet, Index(down.support)) = X_WS;
   Nth(feet, Index(down.swing())) = X_WS * down.X_SF;

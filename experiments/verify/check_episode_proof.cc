@@ -28,11 +28,14 @@ struct KnownWorld {
   Distances distances;
 };
 
-// Whether events.csv says that a half-step, from 1, began nearer to an obstacle than demanded.
-bool SaysNear(const EpisodeText& episode, int half_step) {
-  return std::ranges::any_of(episode.events, [&](const EventRow& event) {
-    return event.what == "near" && event.half_step == half_step;
-  });
+// The half-steps, from 1, of which events.csv says that they began nearer to an obstacle than
+// demanded.
+std::set<int> ThoseNear(const EpisodeText& episode) {
+  std::set<int> near;
+  for (const EventRow& event : episode.events) {
+    if (event.what == "near") near.insert(event.half_step);
+  }
+  return near;
 }
 
 // What a half-step, from 0, is held to that begins at rest nearer to obstacles than demanded: from
@@ -84,6 +87,7 @@ CertificateText DemandsOf(const MarginLimits& limits, Findings* findings) {
 void CheckEpisodeProof(const EpisodeText& episode, const DescribedWalk& walk, const Scene& scene,
                        const CertificateText& demands, const EpisodeProofOptions& options,
                        Findings* findings) {
+  const std::set<int> told_near = ThoseNear(episode);
   std::set<int> worlds;
   int of_world = -1;
   std::unique_ptr<KnownWorld> world;
@@ -100,7 +104,7 @@ void CheckEpisodeProof(const EpisodeText& episode, const DescribedWalk& walk, co
     }
     Findings of_branch;
     std::unique_ptr<KnownWorld> from_rest;
-    if (SaysNear(episode, begun.half_step)) {
+    if (told_near.contains(begun.half_step)) {
       from_rest = std::make_unique<KnownWorld>(
           walk.robot(), SceneFromRest(walk, begun.half_step - 1, world->scene,
                                       demands.demanded[kClearance], options.tolerance, findings));

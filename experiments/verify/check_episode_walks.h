@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "experiments/verify/described_walk.h"
@@ -18,18 +19,21 @@ struct EpisodeWalkFrame {
   const Scene& scene;             ///< whose ground bears the soles
 };
 
-/// The walks of an episode, by number; those before the last only as rows. Borrows the robot.
+/// The walks of an episode. Borrows the robot.
 struct EpisodeWalks {
-  std::vector<WalkPlan> planned;     ///< by number
-  std::vector<DescribedWalk> walks;  ///< by number
+  std::vector<WalkPlan> parts;  ///< by number: from EpisodeWalkText::first on
+  std::vector<int> sizes;       ///< half-steps of each, with those before its part
+  WalkPlan planned;             ///< the last one, whole
+  /// The same; none when one of them describes no walk: then the other checks cannot be made.
+  std::optional<DescribedWalk> last;
 };
 
-/// Makes the walks that walks/NNN/footsteps.csv and half_steps.csv describe, and checks that they
-/// are walks: footsteps at the height of a level that bears them, rows that fit the footsteps, the
-/// config's start, overlaps within their natural bounds by starts and durations, one height scale
-/// and support point a step, numbers of footsteps and durations as in plans.csv, which are handed
-/// over in order, the first at 0. Fewer walks than are asked for when one describes none; then the
-/// other checks cannot be made.
+/// Makes the walks that the tables of walks/NNN describe, each with the walk before it up to where
+/// its own begin, and checks that they are walks: footsteps at the height of a level that bears
+/// them, soles at their beginning where config.yaml or the walk before has them, rows that fit the
+/// footsteps, overlaps within their natural bounds by starts and durations, also with the half-step
+/// of the walk before; one height scale and support point a step, numbers of footsteps and
+/// durations as in plans.csv, which are handed over in order, the first at 0.
 EpisodeWalks CheckEpisodeWalks(const EpisodeText& episode, const EpisodeWalkFrame& frame,
                                Findings* findings);
 

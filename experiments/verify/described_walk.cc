@@ -20,7 +20,14 @@ DescribedWalk::DescribedWalk(const RobotModel& robot, const WalkPlan& planned,
     : robot_(robot),
       floor_(floor ? WalkFloor(*floor) : WalkFloor(planned)),
       crouch_(planned.half_steps.empty() ? 0 : planned.half_steps.front().half_step.crouch),
-      start_heights_{planned.start[0].height, planned.start[1].height} {
+      pieces_(std::make_shared<const std::vector<Piece>>(PiecesOf(robot, planned, rows))),
+      size_(pieces_->size()) {
+  Guide(0.0);
+}
+
+std::vector<DescribedWalk::Piece> DescribedWalk::PiecesOf(const RobotModel& robot,
+                                                          const WalkPlan& planned,
+                                                          const std::vector<HalfStepRow>& rows) {
   HALFSTEP_CHECK(!rows.empty() && rows.size() == planned.half_steps.size(),
                  rows.size() << " rows, " << planned.half_steps.size() << " half-steps");
   std::vector<Pose2> moves;
@@ -28,20 +35,47 @@ DescribedWalk::DescribedWalk(const RobotModel& robot, const WalkPlan& planned,
     moves.push_back(rows[i].FormOf(planned.half_steps[i].half_step).footstep);
   }
   WalkPlan plan = Moved(planned, moves);
+  const double crouch = plan.half_steps.front().half_step.crouch;
+  std::vector<Piece> pieces;
+  std::array<double, 2> heights = {planned.start[0].height, planned.start[1].height};
   for (size_t i = 0; i < rows.size(); ++i) {
     HalfStep& half_step = plan.half_steps[i].half_step;
     half_step.duration = rows[i].duration;
     half_step.via_height *= rows[i].height_scale;
     half_step.support_point = rows[i].support_point;
     half_step.form = rows[i].FormOf(half_step);
-    pieces_.push_back({{plan.half_steps[i], PendulumRate(robot, crouch_)}, rows[i].start});
+    Piece piece{.motion = {plan.half_steps[i], PendulumRate(robot, crouch)},
+                .start = rows[i].start,
+                .heights = heights};
+    piece.begin = piece.motion.start();
+    piece.ended = piece.end();
+    if (i > 0) {
+      WalkInstant before{.value = pieces.back().begin};
+      pieces.back().motion.AddAt(pieces.back().motion.duration(), &before);
+      piece.begin = before.value;
+      piece.ended = std::max(pieces.back().ended, piece.end());
+    }
+    const HalfStep& is = piece.motion.half_step();
+    if (!is.up) Nth(heights, Index(is.swing())) = piece.motion.FootstepHeight();
+    pieces.push_back(std::move(piece));
   }
-  Guide(0.0);
+  double begins = std::numeric_limits<double>::infinity();
+  for (size_t i = pieces.size(); i-- > 0;) {
+    pieces[i].begins = begins = std::min(begins, pieces[i].start);
+  }
+  return pieces;
+}
+
+size_t DescribedWalk::FirstActive(double t) const {
+  const auto end = pieces_->begin() + static_cast<std::ptrdiff_t>(size_ - 1);
+  const auto first = std::partition_point(pieces_->begin(), end,
+                                          [t](const Piece& piece) { return piece.ended <= t; });
+  return static_cast<size_t>(first - pieces_->begin());
 }
 
 DescribedWalk DescribedWalk::StopBranch(int last) const {
   DescribedWalk branch = *this;
-  branch.pieces_.erase(branch.pieces_.begin() + last + 1, branch.pieces_.end());
+  branch.size_ = static_cast<size_t>(last) + 1;
   // Until the first half-step that is left out it is the same walk.
   if (last + 1 < num_half_steps()) branch.Guide(WindowOf(last + 1).first);
   return branch;
@@ -57,30 +91,31 @@ RobotPosture DescribedWalk::PostureAt(double t) const {
 }
 
 std::pair<double, double> DescribedWalk::WindowOf(int half_step) const {
-  const Piece& piece = Nth(pieces_, half_step);
-  return {piece.start, piece.start + piece.motion.duration()};
+  const Piece& of = piece(half_step);
+  return {of.start, of.end()};
 }
 
 std::pair<double, double> DescribedWalk::ShiftOf(int half_step) const {
-  const Piece& piece = Nth(pieces_, half_step);
-  return {piece.start + piece.motion.t1(), piece.start + piece.motion.t2()};
+  const Piece& of = piece(half_step);
+  return {of.start + of.motion.t1(), of.start + of.motion.t2()};
 }
 
 WalkInstant DescribedWalk::At(double t) const {
   WalkInstant at;
-  at.value = pieces_.front().motion.start();
-  for (const Piece& piece : pieces_) piece.motion.AddAt(t - piece.start, &at);
+  size_t i = FirstActive(t);
+  at.value = (*pieces_)[i].begin;
+  for (; i < size_ && (*pieces_)[i].begins < t; ++i) (*pieces_)[i].motion.AddAt(Local(t, i), &at);
   return at;
 }
 
 bool DescribedWalk::HasLanded(double t, size_t up) const {
   const size_t down = up + 1;
-  return down < pieces_.size() && Local(t, down) > pieces_[down].motion.t1();
+  return down < size_ && Local(t, down) > (*pieces_)[down].motion.t1();
 }
 
 int DescribedWalk::StepInAir(double t) const {
-  for (size_t up = 0; up < pieces_.size(); up += 2) {
-    if (Local(t, up) >= pieces_[up].motion.t2() && !HasLanded(t, up)) {
+  for (size_t up = FirstActive(t) / 2 * 2; up < size_ && (*pieces_)[up].begins <= t; up += 2) {
+    if (Local(t, up) >= (*pieces_)[up].motion.t2() && !HasLanded(t, up)) {
       return static_cast<int>(up / 2);
     }
   }
@@ -90,12 +125,13 @@ int DescribedWalk::StepInAir(double t) const {
 Support DescribedWalk::SupportAt(double t) const {
   const int step = StepInAir(t);
   if (step < 0) return Support::kBoth;
-  return static_cast<Support>(Index(Nth(pieces_, 2 * step).motion.half_step().support));
+  return static_cast<Support>(Index(piece(2 * step).motion.half_step().support));
 }
 
 int DescribedWalk::HalfStepAt(double t) const {
-  size_t i = 0;
-  while (i + 1 < pieces_.size() && Local(t, i + 1) >= 0) ++i;
+  size_t i = FirstActive(t);
+  if (i > 0) --i;
+  while (i + 1 < size_ && Local(t, i + 1) >= 0) ++i;
   return static_cast<int>(i) + 1;
 }
 
@@ -105,19 +141,20 @@ bool DescribedWalk::MovesHorizontally(double t, int side) const {
   const int step = StepInAir(t);
   if (step < 0) return false;
   const size_t up = 2 * static_cast<size_t>(step), down = up + 1;
-  if (Index(pieces_[up].motion.half_step().swing()) != side) return false;
-  const HalfStepMotion& rise = pieces_[up].motion;
+  if (Index((*pieces_)[up].motion.half_step().swing()) != side) return false;
+  const HalfStepMotion& rise = (*pieces_)[up].motion;
   const bool begun = Local(t, up) >= rise.foot_begin();
   const bool rises = Local(t, up) <= rise.duration();
-  if (down == pieces_.size()) return begun && rises;
+  if (down == size_) return begun && rises;
   return (begun || Local(t, down) >= 0) &&
-         (Local(t, down) <= pieces_[down].motion.foot_end() || rises);
+         (Local(t, down) <= (*pieces_)[down].motion.foot_end() || rises);
 }
 
 double DescribedWalk::FootholdHeight(double t, int side) const {
-  double height = Nth(start_heights_, side);
-  for (size_t up = 0; up < pieces_.size() && HasLanded(t, up); up += 2) {
-    const HalfStepMotion& motion = pieces_[up + 1].motion;
+  size_t up = FirstActive(t) / 2 * 2;
+  double height = Nth((*pieces_)[up].heights, side);
+  for (; up < size_ && HasLanded(t, up); up += 2) {
+    const HalfStepMotion& motion = (*pieces_)[up + 1].motion;
     if (Index(motion.half_step().swing()) == side) height = motion.FootstepHeight();
   }
   return height;
@@ -126,8 +163,8 @@ double DescribedWalk::FootholdHeight(double t, int side) const {
 double DescribedWalk::LandingHeight(double t, int side) const {
   const int step = StepInAir(t);
   if (step < 0) return FootholdHeight(t, side);
-  const size_t up = 2 * static_cast<size_t>(step), last = std::min(up + 1, pieces_.size() - 1);
-  const HalfStepMotion& motion = pieces_[last].motion;
+  const size_t up = 2 * static_cast<size_t>(step), last = std::min(up + 1, size_ - 1);
+  const HalfStepMotion& motion = (*pieces_)[last].motion;
   return Index(motion.half_step().swing()) == side ? motion.FootstepHeight()
                                                    : FootholdHeight(t, side);
 }
@@ -186,8 +223,8 @@ double WalkDynamics::LeastTorqueMargin(const RobotModel& robot) const {
 
 double DescribedWalk::ComFourthBound(double begin, double end) const {
   Eigen::Vector2d seconds{0, 0};
-  for (const Piece& piece : pieces_) {
-    seconds += piece.motion.SecondBounds(begin - piece.start, end - piece.start);
+  for (size_t i = FirstActive(begin); i < size_ && (*pieces_)[i].begins <= end; ++i) {
+    seconds += (*pieces_)[i].motion.SecondBounds(Local(begin, i), Local(end, i));
   }
   return std::pow(PendulumRate(robot_, crouch_), 2) * seconds.norm();
 }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <limits>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -46,22 +47,38 @@ class DescribedWalk {
   DescribedWalk(const RobotModel& robot, const WalkPlan& planned,
                 const std::vector<HalfStepRow>& rows, const std::optional<double>& floor = {});
 
+  /// A half-step, and what is known of those before it, so that an instant costs the same in any
+  /// walk.
+  struct Piece {
+    HalfStepMotion motion;            ///< in W
+    double start = 0;                 ///< t_i [s]
+    WalkNumbers begin{};              ///< when those before it have ended
+    double ended = 0;                 ///< by when it and those before it have [s]
+    double begins = 0;                ///< before that neither it nor one after it begins [s]
+    std::array<double, 2> heights{};  ///< of the soles before it, where it raises a foot [m]
+
+    double end() const { return start + motion.duration(); }  ///< [s]
+  };
+  /// Of these half-steps, which need not be a walk from its beginning on. The same precondition.
+  static std::vector<Piece> PiecesOf(const RobotModel& robot, const WalkPlan& planned,
+                                     const std::vector<HalfStepRow>& rows);
+
   /// The walk that ends with half-step `last`, from 0. Precondition: there is one.
   DescribedWalk StopBranch(int last) const;
 
-  const RobotModel& robot() const { return robot_; }                       ///< that walks
-  const WalkFloor& floor() const { return floor_; }                        ///< below it
-  int num_half_steps() const { return static_cast<int>(pieces_.size()); }  ///< n
+  const RobotModel& robot() const { return robot_; }              ///< that walks
+  const WalkFloor& floor() const { return floor_; }               ///< below it
+  int num_half_steps() const { return static_cast<int>(size_); }  ///< n
   /// Height z_c of the pendulum [m].
   double pendulum_height() const { return robot_.com_height - crouch_; }
   /// Whether it is an up half-step, from 0.
-  bool IsUp(int half_step) const { return Nth(pieces_, half_step).motion.half_step().up; }
+  bool IsUp(int half_step) const { return piece(half_step).motion.half_step().up; }
   /// When a half-step, counted from 0, begins and ends [s].
   std::pair<double, double> WindowOf(int half_step) const;
   /// When the ZMP of a half-step, counted from 0, goes from foot to foot [s].
   std::pair<double, double> ShiftOf(int half_step) const;
   /// Duration of the walk [s].
-  double end() const { return pieces_.back().start + pieces_.back().motion.duration(); }
+  double end() const { return pieces_->at(size_ - 1).end(); }
   /// All quantities and two time derivatives at t [s], in W.
   WalkInstant At(double t) const;
 
@@ -94,14 +111,13 @@ class DescribedWalk {
   double ComFourthBound(double begin, double end) const;
 
  private:
-  struct Piece {
-    HalfStepMotion motion;
-    double start = 0;  // t_i
-  };
   RobotPosture PostureAt(double t) const;
   // Finds angles near by from `from` [s] to the end.
   void Guide(double from);
-  double Local(double t, size_t piece) const { return t - pieces_[piece].start; }
+  double Local(double t, size_t piece) const { return t - (*pieces_)[piece].start; }
+  const Piece& piece(int half_step) const { return Nth(*pieces_, half_step); }
+  // The first half-step that has not ended at t, or the last.
+  size_t FirstActive(double t) const;
   // Whether the foot that half-step `up` raised stands again.
   bool HasLanded(double t, size_t up) const;
   // The step in the air, or −1.
@@ -110,8 +126,8 @@ class DescribedWalk {
   const RobotModel& robot_;
   WalkFloor floor_;
   double crouch_;
-  std::vector<Piece> pieces_;
-  std::array<double, 2> start_heights_;  // of the soles
+  std::shared_ptr<const std::vector<Piece>> pieces_;  // also of what was cut from this one
+  size_t size_;
   LegGuide guide_;
 };
 

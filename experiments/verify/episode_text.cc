@@ -191,9 +191,16 @@ EpisodeText ReadEpisode(const std::filesystem::path& folder, size_t walks) {
       const std::string path = (folder / FolderOfWalk(k) / file).string();
       return reader(path, ReadBytes(path));
     };
-    text.walks.push_back({.footsteps = read("footsteps.csv", ReadFootsteps),
-                          .half_steps = read("half_steps.csv", ReadHalfSteps),
-                          .overlaps = read("overlaps.csv", ReadOverlapsOfEpisode)});
+    EpisodeWalkText& walk = text.walks.emplace_back();
+    walk.half_steps = read("half_steps.csv", [&](const std::string& path, const std::string& csv) {
+      return ReadHalfStepsFrom(path, csv, &walk.first);
+    });
+    walk.footsteps = read("footsteps.csv", [&](const std::string& path, const std::string& csv) {
+      return ReadFootstepsAfter(path, csv, walk.first / 2);
+    });
+    walk.overlaps = read("overlaps.csv", [&](const std::string& path, const std::string& csv) {
+      return ReadOverlapsOfEpisode(path, csv, walk.first);
+    });
   }
   return text;
 }

@@ -79,11 +79,13 @@ struct EventRow {
   int world = 0, walk = 0, half_step = 0;  ///< numbers of what it is about
 };
 
-/// A walk of an episode as its two files say it.
+/// A walk of an episode as its three files say it, from the step on that changed; what is before is
+/// that of the walk before it.
 struct EpisodeWalkText {
-  std::vector<FootstepRow> footsteps;   ///< footsteps.csv of that walk
-  std::vector<HalfStepRow> half_steps;  ///< half_steps.csv of that walk
-  std::vector<double> overlaps;         ///< overlaps.csv of that walk [s]
+  std::vector<FootstepRow> footsteps;   ///< footsteps.csv; first both soles where these begin
+  std::vector<HalfStepRow> half_steps;  ///< half_steps.csv
+  std::vector<double> overlaps;         ///< overlaps.csv [s]; where `first` > 0 also that before it
+  int first = 0;                        ///< half-step of the walk that half_steps[0] is
 };
 
 /// The tables of an episode as they are read. Numbers that name a row of another table need not

@@ -115,7 +115,7 @@ void CheckEpisodeWalking(const VerifyOptions& options, const EpisodeText& episod
                                              findings);
   const std::string path = (fs::path(options.run) / "trajectory.csv").string();
   const std::vector<PlayedRow> rows = ReadTrajectory(path, ReadBytes(path), place.robot);
-  if (all.walks.size() != episode.walks.size()) return;
+  if (!all.last) return;
   if (!CheckGrantNumbers(episode, all, findings)) return;
   CheckSuccessors(episode, all, findings);
   CheckEpisodeGrants(episode, all, findings);
@@ -126,7 +126,7 @@ void CheckEpisodeWalking(const VerifyOptions& options, const EpisodeText& episod
   CheckEpisodeEnding(episode, manifest, all, executed,
                      {experiment.goal, ground.HeightNamed(experiment.goal.level)}, findings);
   CheckEpisodeProof(
-      episode, all.walks.back(), place.scene, DemandsOf(experiment.smoothing.limits, findings),
+      episode, *all.last, place.scene, DemandsOf(experiment.smoothing.limits, findings),
       {.period = period, .tolerance = options.tolerance.value_or(Tolerances(place.robot).played)},
       findings);
   CheckEpisodeCommands(episode, manifest, config.live, findings);

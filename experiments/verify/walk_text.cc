@@ -1,6 +1,9 @@
 #include "experiments/verify/walk_text.h"
 
+#include <algorithm>
+
 #include "experiments/verify/csv_text.h"
+#include "wpg/files/input_error.h"
 
 namespace halfstep::verify {
 namespace {
@@ -10,6 +13,14 @@ constexpr std::string_view kReplayColumns = ",stands,replay_tilt_rad";
 }  // namespace
 
 std::vector<HalfStepRow> ReadHalfSteps(const std::string& path, const std::string& text) {
+  int first = 0;
+  std::vector<HalfStepRow> rows = ReadHalfStepsFrom(path, text, &first);
+  if (!rows.empty() && first != 0) throw InputError({path + ":2: does not begin with half-step 1"});
+  return rows;
+}
+
+std::vector<HalfStepRow> ReadHalfStepsFrom(const std::string& path, const std::string& text,
+                                           int* begin) {
   std::vector<std::string> columns = {"half_step",  "kind",         "support",        "start_s",
                                       "duration_s", "height_scale", "support_point_m"};
   const std::string head = text.substr(0, text.find('\n'));
@@ -30,7 +41,8 @@ std::vector<HalfStepRow> ReadHalfSteps(const std::string& path, const std::strin
   const CsvText csv(path, text, columns);
   std::vector<HalfStepRow> rows;
   for (size_t i = 0; i < csv.size(); ++i) {
-    csv.CheckFirst(i, static_cast<int>(i) + 1);
+    if (i == 0) *begin = csv.Positive(0, 0) - 1;
+    csv.CheckFirst(i, *begin + static_cast<int>(i) + 1);
     rows.push_back({.kind = csv.Word(i, 1, {"up", "down"}),
                     .support = csv.Word(i, 2, {"left", "right"}),
                     .start = csv.Number(i, 3),
@@ -71,17 +83,23 @@ std::vector<OverlapRow> ReadOverlaps(const std::string& path, const std::string&
   return rows;
 }
 
-std::vector<double> ReadOverlapsOfEpisode(const std::string& path, const std::string& text) {
+std::vector<double> ReadOverlapsOfEpisode(const std::string& path, const std::string& text,
+                                          int first) {
   const CsvText csv(path, text, {"junction", "overlap_s"});
   std::vector<double> overlaps;
   for (size_t i = 0; i < csv.size(); ++i) {
-    csv.CheckFirst(i, static_cast<int>(i) + 1);
+    csv.CheckFirst(i, std::max(first, 1) + static_cast<int>(i));
     overlaps.push_back(csv.Number(i, 1));
   }
   return overlaps;
 }
 
 std::vector<FootstepRow> ReadFootsteps(const std::string& path, const std::string& text) {
+  return ReadFootstepsAfter(path, text, 0);
+}
+
+std::vector<FootstepRow> ReadFootstepsAfter(const std::string& path, const std::string& text,
+                                            int before) {
   std::vector<std::string> columns = {"footstep", "foot",         "x_m",       "y_m",
                                       "yaw_rad",  "via_height_m", "duration_s"};
   // Where soles stand at heights.
@@ -94,7 +112,7 @@ std::vector<FootstepRow> ReadFootsteps(const std::string& path, const std::strin
   const CsvText csv(path, text, columns);
   std::vector<FootstepRow> rows;
   for (size_t i = 0; i < csv.size(); ++i) {
-    const int footstep = i < 2 ? 0 : static_cast<int>(i) - 1;
+    const int footstep = i < 2 ? 0 : before + static_cast<int>(i) - 1;
     csv.CheckFirst(i, footstep);
     rows.push_back({.footstep = footstep,
                     .foot = csv.Word(i, 1, {"left", "right"}),

@@ -59,12 +59,20 @@ struct SummaryRow {
 
 /// Each throws InputError for a text that is no such table.
 std::vector<HalfStepRow> ReadHalfSteps(const std::string& path, const std::string& text);
+/// The same of a table that begins with another half-step, `*first`, counted from 0 (out).
+std::vector<HalfStepRow> ReadHalfStepsFrom(const std::string& path, const std::string& text,
+                                           int* first);
 /// The rows of overlaps.csv.
 std::vector<OverlapRow> ReadOverlaps(const std::string& path, const std::string& text);
-/// The overlaps of an episode's walks/NNN/overlaps.csv [s].
-std::vector<double> ReadOverlapsOfEpisode(const std::string& path, const std::string& text);
+/// The overlaps of an episode's walks/NNN/overlaps.csv [s], whose half_steps.csv begins with
+/// half-step `first`, counted from 0: the first is that with the one before it, if there is one.
+std::vector<double> ReadOverlapsOfEpisode(const std::string& path, const std::string& text,
+                                          int first);
 /// The rows of footsteps.csv.
 std::vector<FootstepRow> ReadFootsteps(const std::string& path, const std::string& text);
+/// The same of a table whose first soles stand where `before` footsteps have been taken.
+std::vector<FootstepRow> ReadFootstepsAfter(const std::string& path, const std::string& text,
+                                            int before);
 /// The rows of summary.csv.
 std::vector<SummaryRow> ReadSummary(const std::string& path, const std::string& text);
 

@@ -224,7 +224,8 @@ std::vector<std::string> TextsOf(const Episode& episode, const std::string& what
 }
 
 std::array<Foothold, 2> LastStance(const Episode& episode) {
-  return StanceAfter(episode.walks.back().plan.sequence, episode.begun.back().half_step);
+  return StanceAfter(episode.Whole(episode.walks.size() - 1).sequence,
+                     episode.begun.back().half_step);
 }
 
 // Each walk goes on from the one before without a jump, to the bit, of values and accelerations.
@@ -232,8 +233,8 @@ void ExpectNoJump(const Episode& episode) {
   const SuperposedWalk executed = episode.Executed();
   for (size_t k = 1; k < episode.walks.size(); ++k) {
     const double t = episode.walks[k].t;
-    const SuperposedWalk before = episode.walks[k - 1].plan.Walk();
-    const SuperposedWalk after = episode.walks[k].plan.Walk();
+    const SuperposedWalk before = episode.Whole(k - 1).Walk();
+    const SuperposedWalk after = episode.Whole(k).Walk();
     const double at = std::min({t, before.duration(), after.duration()});
     ASSERT_EQ(before.At(at).value, after.At(at).value) << k;
     ASSERT_EQ(before.At(at).second, after.At(at).second) << k;
@@ -293,7 +294,7 @@ TEST(CommandedEpisode, TakesFootstepsAsTheyAreListed) {
   const Episode& episode = played.episode;
   EXPECT_EQ(episode.ending, EpisodeEnding::kEnded) << TablesText(episode);
   EXPECT_EQ(episode.walks.front().kind, ProposalKind::kCommanded);
-  const HalfStepSequence& sequence = episode.walks.back().plan.sequence;
+  const HalfStepSequence sequence = episode.Whole(episode.walks.size() - 1).sequence;
   ASSERT_EQ(sequence.num_steps(), 3);
   for (int step = 0; step < 3; ++step) {
     const auto& [down, X_WS, rest] = Nth(sequence.half_steps, 2 * step + 1);
@@ -330,37 +331,33 @@ TEST(CommandedEpisode, AGoalEndsACourse) {
   EXPECT_THAT(TextsOf(played.episode, "commanded").back(), "walk to the goal");
 }
 
-// Of a long walk only its end is thought about: it is the same motion from then on, to the bit, and
-// the whole of what is proposed is the walk again. What thinking costs does not grow.
+// Of a long walk only its end is held: it is the same motion from then on, to the bit. What
+// thinking costs does not grow, and neither does what a walk adds to the record.
 TEST(CommandedEpisode, ThinkingForgetsWhatIsPast) {
   const PlayedEpisode played = PlayScript({Walk(0.0, 0.06, 0, 0)}, 75.0);
   const Episode& episode = played.episode;
-  const WalkPlan& plan = episode.walks.back().plan;
-  Situation s;
-  s.plan = plan;
-  s.smoothed.resize(static_cast<size_t>(plan.sequence.num_junctions()));
-  s.begun = episode.begun.back().half_step;
-  ASSERT_GE(s.begun, 40) << "the walk is too short for this test";
-  s.grant.through = s.robot_through = s.begun + 1;
-  const std::optional<RecentPart> recent = RecentPart::Of(s);
+  const WalkPlan plan = episode.Whole(episode.walks.size() - 1);
+  const SuperposedWalk whole = plan.Walk();
+  const int begun = episode.begun.back().half_step;
+  ASSERT_GE(begun, 40) << "the walk is too short for this test";
+  const std::optional<RecentPart> recent = RecentPart::Of(plan, whole, begun);
   ASSERT_TRUE(recent);
-  const SuperposedWalk whole = plan.Walk(), part = recent->situation().plan.Walk();
+  const SuperposedWalk part = recent->plan.Walk();
   EXPECT_LT(part.num_half_steps(), whole.num_half_steps() - 20);
   for (int i = 2; i < part.num_half_steps(); ++i) {
-    ASSERT_EQ(part.start_of(i), whole.start_of(i + recent->first()));
+    ASSERT_EQ(part.start_of(i), whole.start_of(i + recent->first));
   }
-  for (double t = whole.start_of(s.begun); t < whole.duration(); t += 0.01) {
+  for (double t = whole.start_of(begun); t < whole.duration(); t += 0.01) {
     ASSERT_EQ(part.At(t).value, whole.At(t).value);
     ASSERT_EQ(part.At(t).second, whole.At(t).second);
   }
-  Proposal same{.plan = recent->situation().plan,
-                .smoothed = recent->situation().smoothed,
-                .robot_through = recent->situation().robot_through,
-                .grant = recent->situation().grant};
-  same = recent->Whole(std::move(same));
-  EXPECT_EQ(same.plan.parameters, plan.parameters);
-  EXPECT_EQ(same.grant.through, s.grant.through);
-  EXPECT_EQ(CommonHalfSteps(same.plan.Walk(), whole), whole.num_half_steps());
+  // Of each walk there is what its horizon has, not what was walked.
+  for (const ExecutedWalk& walk : episode.walks) {
+    EXPECT_LT(walk.tail.plan.sequence.size(), 20) << walk.t;
+    EXPECT_LE(walk.tail.first, walk.first_changed);
+    EXPECT_EQ(walk.tail.end(),
+              episode.Whole(static_cast<size_t>(&walk - episode.walks.data())).Walk().duration());
+  }
   // Counted work of the walks in the second and in the last quarter.
   const auto effort = [&](double from, double to) {
     double sum = 0.0;
@@ -371,6 +368,22 @@ TEST(CommandedEpisode, ThinkingForgetsWhatIsPast) {
   };
   EXPECT_LE(effort(55, 75), 1.3 * effort(20, 40) + 1e-3);
   ExpectNoJump(episode);
+}
+
+// The same after more than an hour: no rest is longer than one may be.
+TEST(CommandedEpisode, ThinkingForgetsHours) {
+  const PlayedEpisode played = PlayScript({Walk(0.0, 0.06, 0, 0)}, 75.0);
+  WalkPlan plan = played.episode.Whole(played.episode.walks.size() - 1);
+  const int begun = played.episode.begun.back().half_step;
+  for (const int rest : {1, 3, 5}) Nth(plan.parameters.overlaps, rest) = -0.99 * kLongestRest;
+  const SuperposedWalk whole = plan.Walk();
+  const std::optional<RecentPart> recent = RecentPart::Of(plan, whole, begun);
+  ASSERT_TRUE(recent);
+  const SuperposedWalk part = recent->plan.Walk();
+  EXPECT_GT(whole.duration(), 2.9 * kLongestRest);
+  EXPECT_EQ(part.duration(), whole.duration());
+  const int last = part.num_half_steps() - 1;
+  EXPECT_EQ(part.start_of(last), whole.start_of(recent->first + last));
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ void ExpectSameRecord(const Episode& a, const Episode& b) {
     EXPECT_EQ(tables[i].file.text, others[i].file.text);
   }
   for (size_t k = 0; k < std::min(a.walks.size(), b.walks.size()); ++k) {
-    const SuperposedWalk one = a.walks[k].plan.Walk(), other = b.walks[k].plan.Walk();
+    const SuperposedWalk one = a.Whole(k).Walk(), other = b.Whole(k).Walk();
     ASSERT_EQ(one.duration(), other.duration());
     for (double t = 0.0; t < one.duration(); t += 0.1) {
       EXPECT_TRUE(one.At(t).value.isApprox(other.At(t).value, 1e-12)) << k << " " << t;

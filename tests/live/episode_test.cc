@@ -27,7 +27,7 @@ void ExpectExecutedWhatWasHandedOver(const Episode& episode) {
   for (size_t k = 0; k < episode.walks.size(); ++k) {
     const double from = episode.walks[k].t;
     const double to = k + 1 < episode.walks.size() ? episode.walks[k + 1].t : episode.end;
-    const SuperposedWalk walk = episode.walks[k].plan.Walk();
+    const SuperposedWalk walk = episode.Whole(k).Walk();
     // A walk that had stopped is its own stop branch.
     int begun = 0;
     for (const BegunHalfStep& one : episode.begun) {
@@ -163,7 +163,7 @@ TEST(EpisodeTest, AGoalThatMovesIsFollowed) {
   config.live.script = {goal};
   const PlayedEpisode played = Play({}, config);
   EXPECT_EQ(played.episode.ending, EpisodeEnding::kArrived);
-  const WalkPlan& last = played.episode.walks.back().plan;
+  const WalkPlan last = played.episode.Whole(played.episode.walks.size() - 1);
   EXPECT_TRUE(played.truth->GoalAt(10.0).ContainsStance(
       StanceAfter(last.sequence, played.episode.begun.back().half_step)));
 }

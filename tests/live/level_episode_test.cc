@@ -81,7 +81,7 @@ TEST(LevelEpisode, ArrivesAroundWhatIsCarriedIntoItsWayAndIsVerified) {
   WriteEpisode(episode, world.config, world.place, &folder);
   folder.Publish();
   const Episode read = ReadEpisode(path, world.config, world.place);
-  EXPECT_EQ(read.walks.back().plan.sequence.half_steps.back().X_WS.height, 0.11);
+  EXPECT_EQ(read.walks.back().tail.plan.sequence.half_steps.back().X_WS.height, 0.11);
   const auto verified = verify::VerifyRun({.run = path});
   ASSERT_EQ(verified.size(), 1u);
   EXPECT_TRUE(verified[0].verified) << testing::PrintToString(verified[0].reasons);

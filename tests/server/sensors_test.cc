@@ -260,7 +260,7 @@ TEST(Messages, AWalkTellsItsFootstepsAndTimes) {
   const SmallWorld& small = SmallWorld::Get();
   const Episode episode = Play({}, small.config).episode;
   const auto walk = WalkMessage(episode.walks.front(), 0);
-  const HalfStepSequence& sequence = episode.walks.front().plan.sequence;
+  const HalfStepSequence& sequence = episode.walks.front().tail.plan.sequence;
   EXPECT_EQ(walk["footsteps"].size(), static_cast<size_t>(sequence.num_steps()) + 2);
   EXPECT_EQ(walk["half_steps"].size(), static_cast<size_t>(sequence.size()));
   EXPECT_EQ(walk["half_steps"].back()["end_s"], walk["duration_s"]);

@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "experiments/live/messages.h"
 #include "experiments/report/report_page.h"
 #include "experiments/run/exit_status.h"
 #include "experiments/server/server.h"
@@ -125,9 +126,12 @@ TEST(ServedEpisode, TellsTheSweptVolumesOfEachWalk) {
   // Each volume once, and before a walk that has it.
   const auto next = [&] {
     for (;;) {
-      const json one = client.ReadLine();
+      json one = client.ReadLine();
       if (one.is_null() || one["type"] == "volumes") return one;
-      if (one["type"] == "walk") walk = one;
+      if (one["type"] == "walk") {
+        MakeWhole(std::move(walk), &one);
+        walk = one;
+      }
       if (one["type"] != "volume") continue;
       EXPECT_TRUE(told.insert(one["volume"].get<int>()).second);
       EXPECT_EQ(one["baked_cell_m"], 0.03);
@@ -153,6 +157,12 @@ TEST(ServedEpisode, TellsTheSweptVolumesOfEachWalk) {
     EXPECT_EQ(half_steps[i]["mirrored"], stands["foot"] == "right");
     EXPECT_EQ(told.count(half_steps[i]["volume"]), 1U);
   }
+  EXPECT_EQ(volumes["first_half_step"], 1);
+  // A later client is told the walk whole.
+  Connection late = served.Socket();
+  const json whole = late.ReadUntil("walk");
+  EXPECT_EQ(whole["same"], 0);
+  EXPECT_EQ(whole["footsteps"].size(), whole["half_steps"].size() / 2 + 2);
   client.SendLine({{"type", "carry"}, {"obstacle", "bar"}, {"xyz_m", {0.75, 0.1, 0.02}}});
   const json before = volumes;
   while (!volumes.is_null() && (walk["walk"] == 0 || walk["kind"] != "changed")) volumes = next();
@@ -168,7 +178,7 @@ TEST(ServedEpisode, ABarThatIsCarriedIntoTheWayIsWalkedAround) {
   Connection client = served.Socket();
   const json hello = client.ReadLine();
   EXPECT_EQ(hello["type"], "hello");
-  EXPECT_EQ(hello["protocol"], 2);
+  EXPECT_EQ(hello["protocol"], 3);
   EXPECT_EQ(hello["source"], "stand_in");
   EXPECT_EQ(hello["spare"].size(), 8U);
   EXPECT_EQ(hello["obstacles"][0]["name"], "bar");

@@ -59,6 +59,41 @@ std::string LastWalk(const fs::path& folder) {
   return Formatted("walks/%03zu/", TableOf(folder / "plans.csv").size() - 2);
 }
 
+// Writes the tables of the last walk as a record had them that told walks whole.
+void TellTheLastWalkWhole(const fs::path& folder) {
+  const size_t walks = TableOf(folder / "plans.csv").size() - 1;
+  Table footsteps, half_steps, overlaps;
+  // `kept`: rows of the walk before, `same`: of this one's, that say the same.
+  const auto follow = [](const Table& more, size_t kept, size_t same, Table* whole) {
+    if (whole->empty()) whole->push_back(more[0]);
+    whole->resize(1 + kept);
+    whole->insert(whole->end(), more.begin() + 1 + static_cast<std::ptrdiff_t>(same), more.end());
+  };
+  for (size_t k = 0; k < walks; ++k) {
+    const fs::path walk = folder / Formatted("walks/%03zu", k);
+    const Table more = TableOf(walk / "half_steps.csv");
+    const size_t first = std::stoul(more[1][0]) - 1;
+    follow(more, first, 0, &half_steps);
+    follow(TableOf(walk / "footsteps.csv"), first > 0 ? 2 + first / 2 : 0, first > 0 ? 2 : 0,
+           &footsteps);
+    follow(TableOf(walk / "overlaps.csv"), first > 0 ? first - 1 : 0, 0, &overlaps);
+  }
+  const fs::path last = folder / LastWalk(folder);
+  TamperedRun::EditCsv(last / "half_steps.csv", [&](Table& table) { table = half_steps; });
+  TamperedRun::EditCsv(last / "footsteps.csv", [&](Table& table) { table = footsteps; });
+  TamperedRun::EditCsv(last / "overlaps.csv", [&](Table& table) { table = overlaps; });
+}
+
+// Adds to the numbers of rows of a table of the last walk, but for what is numbered 0.
+void Renumber(const fs::path& folder, const std::string& file, int more) {
+  TamperedRun::EditCsv(folder / (LastWalk(folder) + file), [&](Table& table) {
+    for (size_t row = 1; row < table.size(); ++row) {
+      const int number = std::stoi(table[row][0]);
+      if (number > 0) table[row][0] = std::to_string(number + more);
+    }
+  });
+}
+
 // Edits the cell of the grant that allowed the last half-step.
 ForgeEpisode InUsedGrant(const std::string& column,
                          const std::function<std::string(double)>& change) {
@@ -144,11 +179,34 @@ std::vector<EpisodeForgery> EpisodeForgeries() {
        "begun.csv:3: half-step 3 instead of 2"},
       {"SuccessorChangesWhatHasBegun",
        [](const fs::path& folder) {
+         TellTheLastWalkWhole(folder);
          InLastRow(LastWalk(folder) + "footsteps.csv", "x_m", CellPlus(0.01),
                    [](const Table&, size_t row) { return row == 3; })(folder);
        },
        {},
        "half-step 2 had begun before"},
+      {"SuccessorGoesOnFromElsewhere",
+       [](const fs::path& folder) {
+         InLastRow(LastWalk(folder) + "footsteps.csv", "x_m", CellPlus(1e-8),
+                   [](const Table&, size_t row) { return row == 1; })(folder);
+       },
+       {},
+       "footsteps.csv:2: the foot does not stand there in the walk before it"},
+      {"SuccessorGoesOnAtAnotherTime",
+       [](const fs::path& folder) {
+         InLastRow(LastWalk(folder) + "overlaps.csv", "overlap_s", CellPlus(1e-8),
+                   [](const Table&, size_t row) { return row == 1; })(folder);
+       },
+       {},
+       "half_steps.csv:2: overlap "},
+      {"SuccessorGoesOnWhereNothingIs",
+       [](const fs::path& folder) {
+         Renumber(folder, "half_steps.csv", 40);
+         Renumber(folder, "overlaps.csv", 40);
+         Renumber(folder, "footsteps.csv", 20);
+       },
+       {},
+       ", where no step of the walk before it begins or ends"},
       {"OverlapBeyondItsBound",
        [](const fs::path& folder) {
          InLastRow(LastWalk(folder) + "half_steps.csv", "start_s", CellPlus(-1.4))(folder);
@@ -279,6 +337,19 @@ TEST(VerifyEpisode, AcceptsWhatLiveWrites) {
   EXPECT_THAT(outcome.out, testing::Not(HasSubstr("0 contradict")));
   EXPECT_GT(TableOf(episode.folder() / "plans.csv").size(), 2u);
   EXPECT_THAT(outcome.out, HasSubstr("stop branches keep every margin"));
+}
+
+// Records that told each walk whole are read as well.
+TEST(VerifyEpisode, AcceptsWalksThatAreToldWhole) {
+  const TamperedEpisode episode;
+  const std::string half_steps = "half_steps.csv";
+  const fs::path table = episode.folder() / (LastWalk(episode.folder()) + half_steps);
+  EXPECT_NE(TableOf(table)[1][0], "1") << "the last walk changes the first step";
+  TellTheLastWalkWhole(episode.folder());
+  EXPECT_EQ(TableOf(table)[1][0], "1");
+  episode.Rehash();
+  const Outcome outcome = episode.Verify();
+  EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
 }
 
 // Where nothing is known for as long as a half-step takes, none begins, not even the first. A walk
