@@ -1,23 +1,28 @@
 #include "planner/search/best_planner.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <memory>
 #include <optional>
 
+#include "planner/search/fewest_steps.h"
 #include "planner/search/least_cost.h"
 #include "planner/search/plan_search.h"
 #include "planner/search/plan_shortcut.h"
 #include "planner/search/stand_map.h"
 #include "planner/search/state_buckets.h"
 #include "planner/search/step_search.h"
-#include "planner/search/timed_search.h"
 
 namespace halfstep {
 namespace {
 
 constexpr double kFirstTurn = 0.05;      // effort until another kind of search looks for a plan
-constexpr double kFewest = 5.0;          // times a turn, for A* of the fewest footsteps
+constexpr double kTurnsGrow = 2.0;       // from round to round
+constexpr double kFewestFirst = 10.0;    // times such a turn, for A* of the fewest footsteps
+constexpr double kFewest = 5.0;          // times a turn that improves a plan, for the same
 constexpr double kImprovingTurn = 0.02;  // effort of the first turns that improve it
 constexpr int kRestarts = 2;             // of a random tree, a round
 constexpr int kPlaces = 4000;            // of the map
@@ -41,22 +46,30 @@ class BestSearch {
         random_(*random),
         least_(request.set, *graph) {
     if (request.times == nullptr) return;
-    in_time_.emplace(*request.times, request.set.prototype.duration, graph);
+    const double T = request.set.prototype.duration;
+    in_time_.emplace(*request.times, T, graph);
     edges_ = &*in_time_;
+    waiting_.emplace(*request.times, T, graph, request.times->settled());
   }
 
   SearchEnd Run() {
-    for (double turn = kFirstTurn; monitor_.plans().empty(); turn *= 2.0) {
+    for (double turn = kFirstTurn; monitor_.plans().empty(); turn *= kTurnsGrow) {
       monitor_.Allow(turn);
-      const bool no_tree = Grow(nullptr);
+      const bool no_tree = Grow(edges_, nullptr);
       if (!monitor_.plans().empty()) break;
       if (monitor_.stopped()) return {};
       if (no_tree && edges_ == nullptr) return {.exhausted = true};
-      if (edges_ == nullptr) {
-        monitor_.Allow(kFewest * turn);
-        FewestSteps({kFirstWeight});
+      if (waiting_) {
+        Wait(turn);
         if (!monitor_.plans().empty()) break;
         if (monitor_.stopped()) return {};
+      }
+      if (edges_ == nullptr) {
+        monitor_.Allow(kFewestFirst * turn);
+        const bool ended = SearchFewest().ended;
+        if (!monitor_.plans().empty()) break;
+        if (monitor_.stopped()) return {};
+        if (ended) return {.exhausted = true};
       }
       monitor_.Allow(no_tree ? kUnlimited : turn);  // in time A* has the last word
       if (SearchWith(kFirstWeight)) return {.exhausted = true};
@@ -65,6 +78,12 @@ class BestSearch {
     monitor_.Allow(kUnlimited);
     if (monitor_.Stop()) return {};
     if (!request_.ground) map_.emplace(request_.set, starts_.front(), kPlaces, &graph_);
+    led_[Index()].clear();
+    if (fewest_[Index()].search) {  // it goes on for as long as all took that came before
+      monitor_.Allow(monitor_.progress().effort());
+      SearchFewest();
+      if (monitor_.stopped()) return {};
+    }
     coarse_ = true;
     for (double turn = kImprovingTurn; !IsCheapest(); turn *= 1.5) {
       const bool nothing_better = Round(turn);
@@ -76,6 +95,18 @@ class BestSearch {
   }
 
  private:
+  // A search that takes turns.
+  template <class Search>
+  struct Turns {
+    std::unique_ptr<Search> search = {};
+    bool ended = false;
+    double of = 0.0;  // cost of the plan that it searches along
+    // Goes on, unless it has ended.
+    void Run() {
+      if (!ended) ended = search->Run();
+    }
+  };
+
   // Whether no plan is cheaper than the best.
   bool IsCheapest() const {
     return std::ranges::all_of(starts_, [this](const StepState& start) {
@@ -88,7 +119,7 @@ class BestSearch {
     StepPlan fewest;
     if (edges_ == nullptr) {  // in time they are what costs least
       monitor_.Allow(kFewest * turn);
-      fewest = FewestSteps({kFirstWeight, 2.5, 1.5, 1.0});
+      fewest = SearchFewest().search->plan();
     }
     if (!fewest.ks.empty() && !monitor_.stopped()) {
       monitor_.Allow(turn);
@@ -96,7 +127,7 @@ class BestSearch {
     }
     if (!fewest.ks.empty() && !monitor_.stopped()) {
       monitor_.Allow(turn);
-      SearchAlong(fewest);
+      SearchAlong(fewest, &along_fewest_[Index()]);
     }
     if (monitor_.stopped()) return false;
     for (const double weight : kWeights) {
@@ -104,8 +135,10 @@ class BestSearch {
       if (SearchWith(weight)) return true;
       if (monitor_.stopped()) return false;
     }
+    if (waiting_) Wait(turn);
+    if (monitor_.stopped()) return false;
     monitor_.Allow(turn);
-    SearchAlong(monitor_.plans().back());
+    SearchAlong(monitor_.plans().back(), &along_best_[Index()]);
     if (monitor_.stopped()) return false;
     monitor_.Allow(turn);
     Shorten(monitor_.plans().back());
@@ -113,14 +146,32 @@ class BestSearch {
     for (int restart = 0; restart < kRestarts && !monitor_.stopped(); ++restart) {
       monitor_.Allow(turn);
       StepPlan other;
-      Grow(&other);
+      Grow(edges_, &other);
       if (other.ks.empty() || monitor_.stopped()) continue;
       other = Shorten(std::move(other));
       if (monitor_.stopped()) break;
       monitor_.Allow(turn);
-      SearchAlong(other);
+      Turns<StepSearch> along;
+      SearchAlong(other, &along);
     }
     return false;
+  }
+
+  // In time: a turn each of a tree and A* that wait until all is at rest.
+  void Wait(double turn) {
+    if (wait_.ended) return;
+    monitor_.Allow(turn);
+    StepPlan found;
+    Grow(&*waiting_, &found);
+    if (!found.ks.empty() && !monitor_.stopped()) Shorten(std::move(found));
+    if (monitor_.stopped()) return;
+    monitor_.Allow(turn);
+    if (!wait_.search) {
+      wait_.search = std::make_unique<StepSearch>(
+          starts_, ByLeastCost(), StepSearchOptions{{kFirstWeight, 2.0, 1.4, 1.15}, cells_},
+          &graph_, &monitor_, &*waiting_);
+    }
+    wait_.Run();
   }
 
   // Until the turn ends.
@@ -135,13 +186,15 @@ class BestSearch {
   }
 
   // A tree; whether it ended for want of half-steps.
-  bool Grow(StepPlan* plan) {
+  bool Grow(TimedEdges* edges, StepPlan* plan) {
     StepPlan grown;
-    const TreeEnd end = GrowTree(starts_, rrt_, &graph_, &monitor_, edges_, random_, &grown);
+    const TreeEnd end = GrowTree(starts_, rrt_, &graph_, &monitor_, edges, random_, &grown);
     if (end == TreeEnd::kPlan) monitor_.Offer(grown);
     if (end == TreeEnd::kPlan && plan != nullptr) *plan = std::move(grown);
     return end == TreeEnd::kExhausted;
   }
+
+  size_t Index() const { return coarse_ ? 1 : 0; }  // of a search with Cells()
 
   // Of A*: in every second round, from the first on, larger ones, which leave fewer states.
   PoseCells Cells() const {
@@ -150,45 +203,20 @@ class BestSearch {
     return {.position = kLarger * cells_.position, .yaw = kLarger * cells_.yaw};
   }
 
-  // A* for the fewest footsteps, whatever they cost: many plans have as few, so it soon finds one.
-  StepPlan FewestSteps(const std::vector<double>& weights) {
-    PlanRequest request = request_;
-    request.cost.kind = CostKind::kSteps;
-    StepGraph graph(request, graph_.elements());
-    std::int64_t nodes = 0, queries = 0;
-    request.stop = [&](const PlanProgress& progress) {
-      for (; nodes < progress.nodes; ++nodes) monitor_.CountNode();
-      graph_.AddQueries(graph.queries() - queries);
-      queries = graph.queries();
-      return monitor_.Stop() ? StopReason::kBudget : StopReason::kGoOn;
-    };
-    PlanMonitor monitor(request, graph);
-    const double per_step = 0.5 * graph.reach().Distance(2);
-    const auto to_go = [&](const StepState& state) {
-      const double way = map_ && coarse_ ? map_->Way(state.X_WS.Planar().position()) : 0.0;
-      const double guess = graph.SteadySteps(state);
-      return StepsToGo{.bound = static_cast<double>(graph.LeastSteps(state)),
-                       .guess = std::isfinite(way) ? std::max(guess, way / per_step) : guess + 3.0};
-    };
-    SearchSteps(starts_, to_go, {.weights = weights, .cells = Cells()}, &graph, &monitor);
-    if (monitor.plans().empty()) return {};
-    StepPlan plan = monitor.plans().back();
-    plan.cost = 0.0;
-    StepState state = plan.start;
-    for (int k : plan.ks) {
-      if (graph_.IsForbidden(state, k)) return {};
-      plan.cost += graph_.cost(k);
-      state = graph_.After(state, k);
+  Turns<FewestSteps>& SearchFewest() {
+    Turns<FewestSteps>& turns = fewest_[Index()];
+    if (!turns.search) {
+      turns.search =
+          std::make_unique<FewestSteps>(request_, starts_, StepSearchOptions{.cells = Cells()},
+                                        map_ && coarse_ ? &*map_ : nullptr, &graph_, &monitor_);
     }
-    monitor_.Offer(plan);
-    return plan;
+    turns.Run();
+    return turns;
   }
 
-  // A*; whether there is nothing better.
-  bool SearchWith(double weight) {
-    const double before = monitor_.best_cost(), each = graph_.reach().least_cost();
-    const auto to_go = [&](const StepState& state) {
-      const double bound = least_.From(state);
+  StepSearch::ToGo ByLeastCost() const {
+    return [this](const StepState& state) {
+      const double each = graph_.reach().least_cost(), bound = least_.From(state);
       double guess = bound;
       if (map_) {
         constexpr double kOffTheMap = 1.0;  // [m] more than the bound says
@@ -198,38 +226,47 @@ class BestSearch {
       }
       return StepsToGo{.bound = bound / each, .guess = guess / each};
     };
-    return Search(to_go, weight) && monitor_.best_cost() == before;
   }
 
-  // Whether it ended by itself. In time only a weight of 1 leaves nothing out.
-  bool Search(const std::function<StepsToGo(const StepState&)>& to_go, double weight) {
-    if (edges_ == nullptr) {
-      return SearchSteps(starts_, to_go, {.weights = {weight}, .cells = Cells()}, &graph_,
-                         &monitor_);
-    }
-    return SearchStepsInTime(starts_, to_go, {.weights = {weight, 1.0}, .cells = Cells()}, request_,
-                             &graph_, &monitor_);
+  // A*, begun anew after it has ended; whether there is nothing better.
+  bool SearchWith(double weight) {
+    const double before = monitor_.best_cost();
+    std::unique_ptr<StepSearch>& search = led_[Index()][weight];
+    if (!search) search = Search(ByLeastCost(), weight);
+    if (!search->Run()) return false;
+    search.reset();
+    return monitor_.best_cost() == before;
+  }
+
+  // In time only a weight of 1 leaves nothing out.
+  std::unique_ptr<StepSearch> Search(StepSearch::ToGo to_go, double weight) {
+    std::vector<double> weights = {weight};
+    if (edges_ != nullptr) weights.push_back(1.0);
+    return std::make_unique<StepSearch>(
+        starts_, std::move(to_go), StepSearchOptions{.cells = Cells()}, &graph_, &monitor_, edges_);
   }
 
   // A* near a plan, which tells how far it is to the goal around what stands in between.
-  void SearchAlong(const StepPlan& plan) {
+  void SearchAlong(const StepPlan& plan, Turns<StepSearch>* turns) {
     constexpr double kNear = 0.4;    // [m] of its states, by StateDistance
     constexpr double kBetter = 0.9;  // what a good plan costs of it
-    const PlanStates path = StatesOf(graph_, plan, edges_);
-    const double each = graph_.reach().least_cost();
-    const auto to_go = [&](const StepState& state) {
+    const auto to_go = [this, path = StatesOf(graph_, plan, edges_),
+                        cost = plan.cost](const StepState& state) {
       double guess = std::numeric_limits<double>::infinity();
       for (size_t j = 0; j < path.states.size(); ++j) {
         const Pose2 X_WS = state.X_WS.Planar(), near = path.states[j].X_WS.Planar();
         if ((X_WS.position() - near.position()).squaredNorm() > kNear * kNear) continue;
         const double away = StateDistance(X_WS, near, true);
         if (away > kNear) continue;
-        guess = std::min(guess, kBetter * (plan.cost - path.costs[j]) + least_.per_metre() * away);
+        guess = std::min(guess, kBetter * (cost - path.costs[j]) + least_.per_metre() * away);
       }
-      const double bound = least_.From(state);
+      const double each = graph_.reach().least_cost(), bound = least_.From(state);
       return StepsToGo{.bound = bound / each, .guess = std::max(bound, guess) / each};
     };
-    Search(to_go, 1.0);
+    if (!turns->search || turns->of != plan.cost) {
+      *turns = {.search = Search(to_go, 1.0), .of = plan.cost};
+    }
+    turns->Run();
   }
 
   const PlanRequest& request_;
@@ -240,10 +277,15 @@ class BestSearch {
   PlanMonitor& monitor_;
   std::mt19937_64& random_;
   LeastCost least_;
-  std::optional<TimedEdges> in_time_;
+  std::optional<TimedEdges> in_time_, waiting_;
   TimedEdges* edges_ = nullptr;  // null: not in time
   bool coarse_ = false;
   std::optional<StandMap> map_;
+  // By Index().
+  std::array<Turns<FewestSteps>, 2> fewest_;
+  std::array<Turns<StepSearch>, 2> along_fewest_, along_best_;
+  std::array<std::map<double, std::unique_ptr<StepSearch>>, 2> led_;  // and by weight
+  Turns<StepSearch> wait_;
 };
 
 }  // namespace

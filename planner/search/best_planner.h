@@ -10,9 +10,9 @@ namespace halfstep {
 
 /// Finds a plan, and then better ones until it is told to stop: random trees and short-cuts, which
 /// soon find some way, take turns with weighted A*, which finds the best of those nearby and knows
-/// when nothing is better. Turns grow from round to round. A* is led by LeastCost and,
-/// where half-steps are called free by volumes, by a StandMap. In time the same searches are those
-/// in time.
+/// when nothing is better. Turns grow from round to round, and A* goes on where its turn ended. A*
+/// is led by LeastCost and, where half-steps are called free by volumes, by a StandMap. In time the
+/// same searches are those in time, and others wait until all is at rest.
 class BestPlanner : public FootstepPlanner {
  public:
   /// Of the random trees, and the cells of A*.

@@ -65,8 +65,8 @@ PlanResult BoundingBoxPlanner::Plan(const PlanRequest& request, std::mt19937_64&
         if (box.start_blocked) return {true, "the box around the robot stands in an obstacle"};
         if (box.path.empty()) return {true, "no way for the box around the robot"};
         const Corridor corridor(box.path, options_.corridor, options_.box.feet_apart, *graph);
-        const bool exhausted = SearchSteps(starts, corridor, options_.steps, graph, monitor);
-        return {exhausted, "no footsteps along the way of the box"};
+        StepSearch search(starts, corridor, options_.steps, graph, monitor);
+        return {search.Run(), "no footsteps along the way of the box"};
       });
 }
 

@@ -4,8 +4,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
-#include "planner/search/timed_search.h"
+#include "planner/search/timed_edges.h"
 
 namespace halfstep {
 
@@ -19,11 +20,12 @@ PlanResult FootstepAStar::Plan(const PlanRequest& request, std::mt19937_64&) con
           return StepsToGo{.bound = static_cast<double>(graph->LeastSteps(state)),
                            .guess = graph->SteadySteps(state)};
         };
+        std::optional<TimedEdges> in_time;
         if (request.times != nullptr) {
-          return SearchEnd{.exhausted =
-                               SearchStepsInTime(starts, to_go, options_, request, graph, monitor)};
+          in_time.emplace(*request.times, request.set.prototype.duration, graph);
         }
-        return SearchEnd{.exhausted = SearchSteps(starts, to_go, options_, graph, monitor)};
+        StepSearch search(starts, to_go, options_, graph, monitor, in_time ? &*in_time : nullptr);
+        return SearchEnd{.exhausted = search.Run()};
       });
 }
 

@@ -21,8 +21,8 @@ TimeInterval Later(const TimeInterval& interval, double by) {
 std::optional<TimedState> TimedEdges::Start(const StepState& state) const {
   const TimeIntervals rests = times_.OnOneFoot(state.support, state.X_WS);
   const TimeInterval* rest = IntervalAt(rests, T_);
-  if (rest == nullptr) return std::nullopt;
-  return TimedState{.state = state, .since = T_, .rest = *rest};
+  if (rest == nullptr || rest->end < begin_) return std::nullopt;
+  return TimedState{.state = state, .since = begin_, .rest = *rest};
 }
 
 std::vector<TimedEdge> TimedEdges::Take(const TimedState& from, int k) {
@@ -33,14 +33,18 @@ std::vector<TimedEdge> TimedEdges::Take(const TimedState& from, int k) {
   const TimeIntervals rests = times_.OnOneFoot(to.support, to.X_WS);
   if (rests.empty()) return edges;
   const TimeIntervals downs = times_.DownStarts(i, at.support, at.X_WS, to.X_WS);
-  if (downs.empty()) return edges;
+  const TimeInterval here{from.since, from.rest.end};
+  if (std::ranges::none_of(
+          downs, [&](const TimeInterval& down) { return !IsEmpty(Common(down, here)); })) {
+    return edges;
+  }
   const TimeIntervals ups = times_.UpStarts(i, at.support, at.X_WS, to.X_WS);
   if (ups.empty()) return edges;
   const TimeIntervals stands = times_.OnBothFeet(i, at.support, at.X_WS, to.X_WS);
   for (const TimeInterval& rest : rests) {
     std::optional<TimedEdge> best;
     for (const TimeInterval& down : downs) {
-      const TimeInterval starts = Common(down, {from.since, from.rest.end});
+      const TimeInterval starts = Common(down, here);
       if (IsEmpty(starts)) continue;
       for (const TimeInterval& stand : stands) {
         const TimeInterval lands = Common(Later(starts, T_), stand);
@@ -52,7 +56,7 @@ std::vector<TimedEdge> TimedEdges::Take(const TimedState& from, int k) {
           if (best && since >= best->to.since) continue;
           // Rounding of t − T + T must not leave the interval.
           best = TimedEdge{.to = {to, std::clamp(since, rest.begin, rest.end), rest},
-                           .rest_on_one_foot = lands.begin - T_ - from.since,
+                           .rest_on_one_foot = RestOnOneFoot(from, lands.begin - T_),
                            .rest_on_both_feet = lifts.begin - lands.begin,
                            .latest_up = lifts.end};
         }
@@ -77,7 +81,7 @@ std::optional<TimedEdge> TimedEdges::Land(const TimedState& from, int k) {
     TimedEdge edge;
     edge.to.state = {X_WF, Opposite(at.support)};
     edge.to.since = lands.begin;
-    edge.rest_on_one_foot = lands.begin - T_ - from.since;
+    edge.rest_on_one_foot = RestOnOneFoot(from, lands.begin - T_);
     return edge;
   }
   return std::nullopt;

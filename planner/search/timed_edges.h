@@ -28,11 +28,13 @@ struct TimedEdge {
 /// each within what HalfStepTimes proves. The walk begins at t = 0 with its first half-step.
 class TimedEdges {
  public:
-  /// Both are borrowed. T [s] is that of the set's half-steps.
-  TimedEdges(const HalfStepTimes& times, double T, StepGraph* graph)
-      : times_(times), T_(T), graph_(*graph) {}
+  /// Both are borrowed. T [s] is that of the set's half-steps. The walk rests on one foot until
+  /// `begin` [s] after its first half-step, where that is later than T.
+  TimedEdges(const HalfStepTimes& times, double T, StepGraph* graph, double begin = 0.0)
+      : times_(times), T_(T), graph_(*graph), begin_(begin > T ? begin : T) {}
 
-  /// The state at T, after the first up half-step; none where it must not rest there at all.
+  /// The state at T, or `begin`, after the first up half-step; none where it must not rest there
+  /// until then.
   std::optional<TimedState> Start(const StepState& state) const;
   /// Element k from a state: for each safe interval of resting that it leads to, the earliest
   /// arrival there. Empty: it is not free, at any time that would help.
@@ -48,9 +50,15 @@ class TimedEdges {
   double CostOfLanding(const TimedEdge& edge) const { return edge.to.since * cost_rate(); }
 
  private:
+  // How long it rests on one foot when its down half-step begins at t [s].
+  double RestOnOneFoot(const TimedState& from, double t) const {
+    return t - (from.since == begin_ ? T_ : from.since);  // the start alone is as early
+  }
+
   const HalfStepTimes& times_;
   double T_;
   StepGraph& graph_;
+  double begin_;
 };
 
 /// The rests before the half-steps of a chain of edges, from a start on: of each footstep those on

@@ -163,6 +163,7 @@ TimeIntervals ObstacleTimes::Answer(What what, int i, Side support, const Footho
   if (!is_new) return answer->second;
   TimeIntervals& free = answer->second;
   Cover& cover = CoverOf(what, i, support, rise);
+  cover.refused = 0;  // so that an answer does not depend on those before
   const Eigen::Isometry3d pose = ToIsometry(X_WS);
   double begin = 0.0;
   for (const TimeInterval& still : still_) {
@@ -241,33 +242,43 @@ void ObstacleTimes::Collect(Cover& cover, const Eigen::Isometry3d& X_WS, double 
 }
 
 bool ObstacleTimes::IsFree(Cover& cover, const Starts& starts) const {
+  if (cover.refused != 0 &&
+      !Clears(cover, PieceOf(cover, cover.refused), cover.refused_body, starts)) {
+    return false;
+  }
   std::vector<size_t> everything(robot_.bodies.size());
   std::iota(everything.begin(), everything.end(), size_t{0});
   return IsFree(cover, 1, everything, starts);
 }
 
+bool ObstacleTimes::Clears(const Cover& cover, const Piece& piece, size_t body,
+                           const Starts& starts) const {
+  if (!piece.bounded) return false;
+  ++checks_;
+  const double t = starts.settled ? starts.mid : starts.mid + piece.mid - cover.from;
+  const double half = starts.settled ? 0.0 : starts.half + piece.half;
+  return world_.Clears(shapes_[body], starts.X_WS * piece.X_SBody[body], t,
+                       clearance_ + piece.displacement[body], &scratch_[body], half);
+}
+
 bool ObstacleTimes::IsFree(Cover& cover, int n, const std::vector<size_t>& bodies,
                            const Starts& starts) const {
   const Piece& piece = PieceOf(cover, n);
-  const double t = starts.settled ? starts.mid : starts.mid + piece.mid - cover.from;
-  const double half = starts.settled ? 0.0 : starts.half + piece.half;
+  // Where the start times are much longer than the piece, they have to be cut first.
+  const bool short_enough = !starts.settled && piece.half <= 0.25 * starts.half;
+  const bool finest = cover.from == cover.to || n >= kFinestUnbounded ||
+                      (piece.bounded && (n >= kFinestPiece || short_enough));
   std::vector<size_t> left;
-  for (const size_t b : bodies) {
-    if (piece.bounded) ++checks_;
-    if (!piece.bounded || !world_.Clears(shapes_[b], starts.X_WS * piece.X_SBody[b], t,
-                                         clearance_ + piece.displacement[b], &scratch_[b], half)) {
-      left.push_back(b);
+  for (const size_t body : bodies) {
+    if (Clears(cover, piece, body, starts)) continue;
+    if (finest) {
+      cover.refused = n;
+      cover.refused_body = body;
+      return false;
     }
+    left.push_back(body);
   }
   if (left.empty()) return true;
-  if (cover.from == cover.to) return false;
-  if (piece.bounded) {
-    // Where the start times are much longer than the piece, they have to be cut first.
-    const bool short_enough = !starts.settled && piece.half <= 0.25 * starts.half;
-    if (n >= kFinestPiece || short_enough) return false;
-  } else if (n >= kFinestUnbounded) {
-    return false;
-  }
   return IsFree(cover, 2 * n, left, starts) && IsFree(cover, 2 * n + 1, left, starts);
 }
 

@@ -62,6 +62,10 @@ class ObstacleTimes : public HalfStepTimes {
     HalfStepTracks tracks;
     double from = 0.0, to = 0.0;  // local times [s]; equal: of a rest
     std::map<int, Piece> pieces = {};
+    // The piece and the body that were not free the last time: start times nearby mostly are not
+    // either. 0: none yet.
+    int refused = 0;
+    size_t refused_body = 0;
   };
   // Start times [s], and where the support sole stands.
   struct Starts {
@@ -79,6 +83,7 @@ class ObstacleTimes : public HalfStepTimes {
   void Collect(Cover& cover, const Eigen::Isometry3d& X_WS, double begin, double end,
                TimeIntervals* free) const;
   bool IsFree(Cover& cover, const Starts& starts) const;
+  bool Clears(const Cover& cover, const Piece& piece, size_t body, const Starts& starts) const;
   bool IsFree(Cover& cover, int n, const std::vector<size_t>& bodies, const Starts& starts) const;
 
   const RobotModel& robot_;

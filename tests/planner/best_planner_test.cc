@@ -4,8 +4,10 @@
 
 #include <cmath>
 
+#include "planner/search/footstep_astar.h"
 #include "planner/search/least_cost.h"
 #include "planner/search/plan_search.h"
+#include "planner/search/step_search.h"
 #include "tests/planner/flat_world.h"
 
 namespace halfstep {
@@ -92,6 +94,63 @@ TEST(BestPlanner, EndsAtTheFirstPlanWhereThatIsEnough) {
   random.seed(1);
   const PlanResult tree = FootstepRrt({}).Plan(request, random);
   EXPECT_EQ(first.elements, tree.elements);
+}
+
+// Where A* alone needs so much work, turns of other searches cost a part of it more: each goes on
+// where its turn ended.
+TEST(BestPlanner, LosesNothingOfItsTurns) {
+  const StepSet set = PlausibleSet(0.22);
+  const FlatQuery query(set, WallWithGap(0.3, 0.36));  // only aside
+  PlanRequest request = RequestTo({2.0, 0.0, 0.0}, set, query);
+  request.workspace = {Eigen::Vector2d(-0.6, -1.45), Eigen::Vector2d(2.6, 1.45)};
+  request.stop = AnyOf({AtFirstPlan(), AfterEffort(20.0)});
+  std::mt19937_64 random(1);
+  const PlanResult alone = FootstepAStar(FootstepAStar::Elements::kAll, {}).Plan(request, random);
+  ASSERT_EQ(alone.status, PlanStatus::kSolved) << alone.sentence;
+  request.cost.kind = CostKind::kSmoothedDuration;
+  const PlanResult best = BestPlanner({}, {}).Plan(request, random);
+  ASSERT_EQ(best.status, PlanStatus::kSolved) << best.sentence;
+  EXPECT_GT(alone.effort(), 0.5);
+  EXPECT_LT(best.effort(), 1.5 * alone.effort());
+}
+
+TEST(StepSearch, GoesOnWhereItsTurnEnded) {
+  const StepSet set = PlausibleSet();
+  const FlatQuery query(set, WallWithGap(0.3, 0.8));
+  PlanRequest request = RequestTo({2.0, 0.0, 0.0}, set, query);
+  request.stop = AfterEffort(10.0);
+  struct Searched {
+    int turns = 1;
+    std::int64_t nodes = 0, queries = 0;
+    std::vector<std::vector<int>> plans;
+  };
+  const auto search_in_turns = [&](double turn) {
+    StepGraph graph(request, AllElements(set));
+    PlanMonitor monitor(request, graph);
+    StepSearch search(
+        graph.FreeStarts(),
+        [&graph](const StepState& state) {
+          return StepsToGo{static_cast<double>(graph.LeastSteps(state)), graph.SteadySteps(state)};
+        },
+        {.weights = {5.0, 2.0}, .cells = {.position = 0.06, .yaw = 0.2}}, &graph, &monitor);
+    Searched searched;
+    for (monitor.Allow(turn); !search.Run() && searched.turns < 1000; ++searched.turns) {
+      EXPECT_FALSE(monitor.stopped());
+      monitor.Allow(turn);
+    }
+    searched.nodes = monitor.progress().nodes;
+    searched.queries = graph.queries();
+    for (const StepPlan& plan : monitor.plans()) searched.plans.push_back(plan.ks);
+    EXPECT_TRUE(search.Run());  // it has ended
+    return searched;
+  };
+  const Searched whole = search_in_turns(10.0), parts = search_in_turns(0.005);
+  EXPECT_EQ(whole.turns, 1);
+  EXPECT_GT(parts.turns, 5);
+  EXPECT_GE(whole.plans.size(), 1u);
+  EXPECT_EQ(parts.plans, whole.plans);
+  EXPECT_EQ(parts.nodes, whole.nodes);
+  EXPECT_EQ(parts.queries, whole.queries);
 }
 
 TEST(PlanMonitor, ATurnEndsWithoutEndingThePlanning) {

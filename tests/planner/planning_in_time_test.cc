@@ -27,8 +27,8 @@ struct ShutBand {
 
 class BandTimes : public HalfStepTimes {
  public:
-  BandTimes(const StepSet& set, std::vector<ShutBand> bands)
-      : set_(set), bands_(std::move(bands)) {}
+  BandTimes(const StepSet& set, std::vector<ShutBand> bands, double settled = 100.0)
+      : set_(set), bands_(std::move(bands)), settled_(settled) {}
 
   TimeIntervals DownStarts(int i, Side support, const Foothold& X_WS,
                            const Foothold& X_WF) const override {
@@ -46,7 +46,7 @@ class BandTimes : public HalfStepTimes {
   TimeIntervals OnOneFoot(Side, const Foothold& X_WS) const override {
     return Open({X_WS.Planar()}, 0.0);
   }
-  double settled() const override { return 100.0; }
+  double settled() const override { return settled_; }
 
  private:
   // When something that takes `lasts` may begin.
@@ -72,6 +72,7 @@ class BandTimes : public HalfStepTimes {
 
   const StepSet& set_;
   std::vector<ShutBand> bands_;
+  double settled_;
 };
 
 StepSet FewSteps() {
@@ -264,6 +265,58 @@ TEST(PlanningInTime, WhoCameFirstInTheSearchDoesNotHideWhoComesEarlier) {
     solved += std::isfinite(earliest);
   }
   EXPECT_GT(solved, 0);
+}
+
+// Doors that open and shut all the time, until all is open: in time there is much to search.
+TEST(PlanningInTime, BestNeverEndsLaterThanWaitingUntilAllIsAtRest) {
+  const StepSet set = PlausibleSet();
+  const FlatQuery query(set, {});
+  std::mt19937_64 random(2);
+  for (int draw = 0; draw < 4; ++draw) {
+    std::vector<ShutBand> bands;
+    double settled = 0.0;
+    for (double t = 0.0; t < 40.0; t += std::uniform_real_distribution<double>(4.0, 7.0)(random)) {
+      settled = t + std::uniform_real_distribution<double>(2.0, 4.0)(random);
+      const double x = std::uniform_real_distribution<double>(0.5, 1.2)(random);
+      bands.push_back({x, x + 0.4, {t, settled}});
+    }
+    const BandTimes times(set, bands, settled);
+    PlanRequest request = RequestTo({2.0, 0.0, 0.0}, set, query);
+    request.cost.kind = CostKind::kRawDuration;
+    request.stop = AnyOf({WhenPlannedAfter(0.3), AfterEffort(10.0)});
+    const PlanResult after = PlanBy("best", request);
+    ASSERT_EQ(after.status, PlanStatus::kSolved) << after.sentence;
+    request.times = &times;
+    const PlanResult best = PlanBy("best", request);
+    ASSERT_EQ(best.status, PlanStatus::kSolved) << best.sentence;
+    const double T = set.prototype.duration;
+    EXPECT_LE(TimesOf(best.footsteps).back().end,
+              settled - T + 2.0 * T * static_cast<double>(after.footsteps.size()) + 1e-9);
+  }
+}
+
+TEST(PlanningInTime, WhoWaitsForAllToRestBeginsOnOneFoot) {
+  const StepSet set = FewSteps();
+  const FlatQuery query(set, {});
+  const BandTimes times(set, {{0.25, 0.75, {0.0, 20.0}}}, 30.0);
+  const PlanRequest request = RequestAlong(set, query, times);
+  StepGraph graph(request, AllElements(set));
+  TimedEdges waiting(times, 1.0, &graph, times.settled());
+  const StepState start = graph.FreeStarts().front();
+  const auto at = waiting.Start(start);
+  ASSERT_TRUE(at);
+  EXPECT_EQ(at->since, 30.0);
+  const std::vector<TimedEdge> edges = waiting.Take(*at, 2);
+  ASSERT_EQ(edges.size(), 1u);
+  EXPECT_EQ(edges[0].to.since, 32.0);
+  EXPECT_EQ(edges[0].rest_on_one_foot, 29.0);  // from T on
+  const std::vector<TimedEdge> next = waiting.Take(edges[0].to, 2);
+  ASSERT_EQ(next.size(), 1u);
+  EXPECT_EQ(next[0].rest_on_one_foot, 0.0);
+  // Not where it may not rest for so long.
+  const BandTimes shut(set, {{-0.1, 0.1, {10.0, 20.0}}}, 30.0);
+  EXPECT_TRUE(TimedEdges(shut, 1.0, &graph).Start(start));
+  EXPECT_FALSE(TimedEdges(shut, 1.0, &graph, 30.0).Start(start));
 }
 
 TEST(PlanningInTime, TheSameRequestGivesTheSamePlanAndShutNowhereTheUntimedOne) {
