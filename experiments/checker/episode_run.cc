@@ -94,7 +94,8 @@ WalkRun ReadEpisodeRun(const std::string& folder, const std::string& robot_file,
                 walk.half_steps,
                 {0.0},
                 half_step.form,
-                Interval(run.robot.com_height) - Interval(run.crouch)};
+                Interval(run.robot.com_height) - Interval(run.crouch),
+                run.crouch};
   if (walk.overlaps.size() + 1 != walk.half_steps.size()) {
     throw InputError({"overlaps.csv: has not one overlap for each two half-steps"});
   }

@@ -19,7 +19,7 @@ DescribedWalk::DescribedWalk(const RobotModel& robot, const WalkPlan& planned,
                              const std::optional<double>& floor)
     : robot_(robot),
       floor_(floor ? WalkFloor(*floor) : WalkFloor(planned)),
-      crouch_(planned.half_steps.empty() ? 0 : planned.half_steps.front().half_step.crouch),
+      crouch_(StartCrouch(planned)),
       start_heights_{planned.start[0].height, planned.start[1].height} {
   HALFSTEP_CHECK(!rows.empty() && rows.size() == planned.half_steps.size(),
                  rows.size() << " rows, " << planned.half_steps.size() << " half-steps");

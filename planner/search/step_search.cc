@@ -66,7 +66,7 @@ class WeightedSearch {
   Promise Promises(const Node& node, int k, const Foothold& X_WF) const {
     const double cost = node.cost + graph_.cost(k);
     if (graph_.IsGoal(node.state, X_WF)) return {cost, 0.0, cost < monitor_.best_cost()};
-    const StepState after{X_WF, Opposite(node.state.support)};
+    const StepState after = graph_.After(node.state, k, X_WF);
     if (!graph_.workspace().contains(X_WF.Planar().position())) return {0.0, 0.0, false};
     const StepsToGo left = to_go_(after);
     const double each = graph_.reach().least_cost();
@@ -82,7 +82,8 @@ class WeightedSearch {
     promises_.clear();
     for (int k = 0; k < graph_.size(); ++k) {
       const Foothold& X_WF = Nth(landings_, k);
-      const bool may_bear = graph_.looks_up_heights() || graph_.IsLevel(X_WF.height);
+      const bool may_bear =
+          graph_.Fits(node.state, k) && (graph_.looks_up_heights() || graph_.IsLevel(X_WF.height));
       promises_.push_back(may_bear ? Promises(node, k, X_WF) : Promise{0.0, 0.0, false});
       if (promises_.back().wanted) node.order.push_back(static_cast<std::uint32_t>(k));
     }
