@@ -40,6 +40,15 @@ bool SmoothInto(const ExperimentConfig& config, const std::stop_token& stop, Ben
   return true;
 }
 
+// How far the waist is below where it stands upright, at most [m].
+double LowestWaist(const ExperimentConfig& config) {
+  double lowest = config.half_step.crouch;
+  for (const FootstepConfig& footstep : config.footsteps) {
+    lowest = std::max(lowest, footstep.crouch.value_or(0.0));
+  }
+  return lowest;
+}
+
 std::optional<BenchRow> PlanCase(const BenchSelection& selection, const BenchCase& one,
                                  const fs::path& scenes, const std::stop_token& stop) {
   std::vector<YamlOverride> overrides = selection.overrides;
@@ -57,7 +66,7 @@ std::optional<BenchRow> PlanCase(const BenchSelection& selection, const BenchCas
   row.wall = walk.plan.time;
   if (walk.plan.footsteps.empty()) return row;
   row.footsteps = static_cast<int>(walk.plan.footsteps.size());
-  row.crouch = walk.config.half_step.crouch;
+  row.crouch = LowestWaist(walk.config);
   row.footsteps_yaml = PlanYaml(walk);
   if (!SmoothInto(walk.config, stop, &row)) return std::nullopt;
   return row;
@@ -103,7 +112,7 @@ std::optional<BenchRow> CheckCase(const BenchSelection& selection, const BenchCa
       LoadConfig((scenes / (one.key.Name() + ".yaml")).string(), {}, selection.tools);
   const Experiment experiment = Prepare(*given.config);
   const GoalRegion goal = GoalOn(with_goal.goal, *experiment.scene.ground);
-  row.crouch = given.config->half_step.crouch;
+  row.crouch = LowestWaist(*given.config);
   if (IsRefused(experiment, goal, &row)) return row;
   row.status = "solved";
   row.message = "certified, and arrives";

@@ -54,7 +54,7 @@ struct BenchRow {
   bool certified = false;          ///< that walk, for all t
   double nodes = 0.0;              ///< of the planner
   double effort = 0.0;             ///< counted work of the planner
-  double crouch = 0.0;             ///< of all half-steps [m]
+  double crouch = 0.0;             ///< the largest of its half-steps [m]
   std::string message;             ///< in words
   double wall = 0.0;               ///< of planning, by this machine's clock [s]
   std::string footsteps_yaml;      ///< as --footsteps takes them; "": none

@@ -84,7 +84,7 @@ CsvColumns BenchColumns() {
           {"certified", kBoolean, "", "that walk, for all t"},
           {"nodes", kInteger, "", "of the planner"},
           {"effort", kNumber, "", "counted work of the planner; 1 is about a second of one core"},
-          {"crouch_m", kNumber, "m", "how far the waist is below where it stands upright"},
+          {"crouch_m", kNumber, "m", "how far the waist is below where it stands upright, at most"},
           {"message", kString, "", "in words"}};
 }
 

@@ -126,6 +126,7 @@ WalkRun ReadEpisodeRun(const std::string& folder, const std::string& robot_file,
   run.tables = LastWalk(episode);
   run.tables.planned = half_step.form;
   run.tables.com_height = Interval(run.robot.com_height) - Interval(run.crouch);
+  run.tables.crouch = run.crouch;
   std::vector<std::shared_ptr<const Scene>> worlds(episode.worlds.size());
   for (size_t j = 0; j < episode.begun.size(); ++j) {
     const verify::BegunRow& begun = episode.begun[j];

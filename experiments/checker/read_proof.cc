@@ -186,6 +186,7 @@ void ReadMotion(const JsonMember& of, WalkRun* walk) {
   if (of.Number("gravity_m_s2") != kGravity) of.Fail("gravity_m_s2 is another (valid here: 9.81)");
   walk->crouch = of.Number("crouch_m");
   WalkTables& tables = walk->tables;
+  tables.crouch = walk->crouch;
   tables.com_height = Interval(walk->robot.com_height) - Interval(walk->crouch);
   if (!(tables.com_height.lo > 0.0)) of.Fail("the pendulum has no length");
   std::vector<Pose2> moves;

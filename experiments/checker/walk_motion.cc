@@ -56,7 +56,7 @@ WalkTables WalkTables::CutAfter(size_t last) const {
 }
 
 WalkMotion::WalkMotion(const WalkTables& tables) {
-  const auto& [footsteps, rows, starts, planned, com_height] = tables;
+  const auto& [footsteps, rows, starts, planned, com_height, crouch] = tables;
   if (footsteps.size() < 3 || (rows.size() + 1) / 2 != footsteps.size() - 2 ||
       starts.size() != rows.size()) {
     throw InputError({"half_steps.csv: has not two half-steps for each row of footsteps.csv"});
@@ -66,6 +66,22 @@ WalkMotion::WalkMotion(const WalkTables& tables) {
   for (const verify::FootstepRow& row : footsteps) {
     if (row.footstep != 0) continue;
     soles[row.foot == "left" ? 0 : 1] = {row.X_WF.x, row.X_WF.y, row.z, row.X_WF.yaw};
+  }
+  // How much higher the waist is kept than at the start.
+  const auto higher = [&crouch = crouch](const verify::FootstepRow& row) {
+    const bool other = row.crouch && *row.crouch != crouch;
+    if (other && !(*row.crouch >= 0.0 && *row.crouch <= 0.5)) {
+      throw InputError({"footsteps.csv: crouch_m is none that there can be (valid: 0 … 0.5)"});
+    }
+    return other ? Interval(crouch) - Interval(*row.crouch) : Interval(0.0);
+  };
+  const auto raised = [](const Interval& z, const Interval& rise) {
+    return rise.lo == 0.0 && rise.hi == 0.0 ? z : z + rise;
+  };
+  for (size_t i = 0; i < 2; ++i) {
+    const std::optional<double>& at_start = footsteps[i].crouch;
+    if (!at_start || *at_start == crouch) continue;
+    throw InputError({"footsteps.csv: crouch_m at the start is not that of config.yaml"});
   }
   const auto add_rest = [&](const std::array<Interval, 2>& com, const Interval& yaw,
                             const Interval& waist_z) {
@@ -79,12 +95,13 @@ WalkMotion::WalkMotion(const WalkTables& tables) {
                         rest.begin() + kSole + 4 * side);
     }
   };
-  const auto add_standing = [&] {
+  const auto add_standing = [&](const Interval& rise) {
     const Interval &z = soles[0].z, &w = soles[1].z;  // over the lower one
     add_rest({Mean(soles[0].x, soles[1].x), Mean(soles[0].y, soles[1].y)},
-             Mean(soles[0].yaw, soles[1].yaw), {std::min(z.lo, w.lo), std::min(z.hi, w.hi)});
+             Mean(soles[0].yaw, soles[1].yaw),
+             raised({std::min(z.lo, w.lo), std::min(z.hi, w.hi)}, rise));
   };
-  add_standing();
+  add_standing(0.0);
   Place from;  // of the foot that swings
   for (size_t i = 0; i < rows.size(); ++i) {
     const verify::HalfStepRow& row = rows[i];
@@ -127,7 +144,8 @@ WalkMotion::WalkMotion(const WalkTables& tables) {
       from = soles[swing];
       soles[swing] = {x, y, on.z + Interval(row.height_scale) * Interval(footstep.via_height),
                       on.yaw};
-      add_rest(on.Of(0.0, aside * Interval(row.support_point)), on.yaw, on.z);
+      add_rest(on.Of(0.0, aside * Interval(row.support_point)), on.yaw,
+               raised(on.z, higher(footstep)));
       flights_.push_back({swing, time(now.height.span().first).lo, now.end.hi,
                           time(now.way.span().first).lo, now.end.hi, from.z.Middle(), false});
       continue;
@@ -136,7 +154,7 @@ WalkMotion::WalkMotion(const WalkTables& tables) {
     const Place at{X_WF.x, X_WF.y, footstep.z, X_WF.yaw};
     const auto [x, y] = at.Of(move.x, move.y);
     soles[swing] = {x, y, at.z, at.yaw + Interval(move.yaw)};
-    add_standing();
+    add_standing(higher(footstep));
     WalkMotion::Flight& flight = flights_.back();
     flight.end = time(now.height.span().second).hi;
     flight.moves_from = std::min(flight.moves_from, start.lo);

@@ -16,6 +16,7 @@ struct WalkTables {
   std::vector<Interval> starts;                 ///< t_i of each [s]; their rows' are not read
   verify::FormColumns planned;                  ///< form of half-steps whose row has none
   Interval com_height;                          ///< z_c of the pendulum [m]
+  double crouch = 0.0;  ///< of footsteps that do not say it, and at the start [m]
 
   /// Those of the walk that is cut after half-step `last`, counted from 0: nothing else begins.
   WalkTables CutAfter(size_t last) const;

@@ -120,7 +120,7 @@ WalkRun ReadWalkRun(const std::string& run, const std::string& method,
   walk.tables.footsteps = read(verify::ReadFootsteps, root, "footsteps.csv");
   walk.tables.half_steps = read(verify::ReadHalfSteps, folder, "half_steps.csv");
   const HalfStepConfig& form = config.half_step;
-  walk.crouch = form.crouch;
+  walk.crouch = walk.tables.crouch = form.crouch;
   walk.tables.com_height = Interval(walk.robot.com_height) - Interval(walk.crouch);
   walk.tables.planned = verify::HalfStepOf(form).form;
   std::optional<std::vector<verify::OverlapRow>> overlaps;

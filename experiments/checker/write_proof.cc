@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -214,6 +215,11 @@ std::string ProofText(const ProofFile& proof, const std::vector<std::string>& no
   const auto level = walk.scene.ground->OnlyLevel();
   if (!level || level->height != 0.0 || !walk.scene.ground->Solids().empty()) {
     throw InputError({"--proof: the scene has levels (valid here: a level floor at z = 0)"});
+  }
+  if (std::ranges::any_of(walk.tables.footsteps, [&](const verify::FootstepRow& row) {
+        return row.crouch.value_or(walk.crouch) != walk.crouch;
+      })) {
+    throw InputError({"--proof: the waist changes its height (valid here: one `crouch_m`)"});
   }
   Json sources = Json::array();
   for (const InputFile& file : walk.files) {

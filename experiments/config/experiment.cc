@@ -204,7 +204,8 @@ std::vector<Footstep> FootstepsOf(const ExperimentConfig& config, const RobotMod
                          .via_height = step.via_height.value_or(config.half_step.via_height),
                          .duration = step.duration.value_or(config.half_step.duration),
                          .rest = step.rest.value_or(0.0),
-                         .rest_on_one_foot = step.rest_on_one_foot.value_or(0.0)});
+                         .rest_on_one_foot = step.rest_on_one_foot.value_or(0.0),
+                         .crouch = step.crouch});
   }
   return footsteps;
 }

@@ -71,6 +71,13 @@ void DeclareFootstep(Fields& fields, FootstepConfig* step) {
                          .min = 0,
                          .max = kLongestRest,
                          .none_left_out = true});
+  fields.OptionalNumber("crouch_m", &step->crouch,
+                        {.meaning = "instead of half_step.crouch_m: the waist comes to that height "
+                                    "while the foot rises",
+                         .unit = "m",
+                         .min = 0,
+                         .max = 0.5,
+                         .none_left_out = true});
 }
 
 // The yaw nearest to `beside` that is the same place of a sole as `yaw` [rad].

@@ -34,6 +34,7 @@ struct FootstepConfig {
   LevelChoice on = {};                          ///< the level
   std::optional<double> rest = {};              ///< Footstep::rest [s]; none: 0
   std::optional<double> rest_on_one_foot = {};  ///< Footstep::rest_on_one_foot [s]; none: 0
+  std::optional<double> crouch = {};            ///< Footstep::crouch [m]
 };
 
 /// An experiment as its YAML file says it (top keys: experiments/config.md). Paths are as written.

@@ -55,6 +55,7 @@ constexpr Range kYawRange = {-kMostTurn, kMostTurn, "-3600 … 3600°"};
 constexpr Range kHeightRange = {0.01, 1.0, "0.01 … 1 m"};
 constexpr Range kDurationRange = {0.6, 6.0, "0.6 … 6 s"};
 constexpr Range kRestRange = {0.0, 3600.0, "0 … 3600 s"};
+constexpr Range kCrouchRange = {0.0, 0.5, "0 … 0.5 m"};
 
 /// Reads a table of footsteps.
 class FootstepTable {
@@ -93,10 +94,18 @@ class FootstepTable {
   }
 
   void ReadHeader(const std::vector<Cell>& cells) {
-    static const std::vector<std::string> kNames = {
-        "footstep",          "foot",    "x_m",          "y_m",        "z_m",
-        "yaw_rad",           "yaw_deg", "via_height_m", "duration_s", "rest_s",
-        "rest_on_one_foot_s"};
+    static const std::vector<std::string> kNames = {"footstep",
+                                                    "foot",
+                                                    "x_m",
+                                                    "y_m",
+                                                    "z_m",
+                                                    "yaw_rad",
+                                                    "yaw_deg",
+                                                    "via_height_m",
+                                                    "duration_s",
+                                                    "rest_s",
+                                                    "rest_on_one_foot_s",
+                                                    "crouch_m"};
     width_ = cells.size();
     for (size_t i = 0; i < cells.size(); ++i) {
       if (!columns_.emplace(cells[i].text, i).second) {
@@ -155,6 +164,7 @@ class FootstepTable {
     step.duration = Number(cells, "duration_s", kDurationRange);
     step.rest = Number(cells, "rest_s", kRestRange);
     step.rest_on_one_foot = Number(cells, "rest_on_one_foot_s", kRestRange);
+    step.crouch = Number(cells, "crouch_m", kCrouchRange);
     if (read_.steps.empty() && step.rest.value_or(0.0) > 0.0) {
       Complain(cells[columns_["rest_s"]].column, "rest_s",
                "of the first footstep, with which the walk begins (valid: 0 there)");
@@ -171,7 +181,8 @@ class FootstepTable {
     if (found == columns_.end()) return std::nullopt;
     const Cell& cell = cells[found->second];
     const bool may_be_empty = name == "z_m" || name == "via_height_m" || name == "duration_s" ||
-                              name == "rest_s" || name == "rest_on_one_foot_s";
+                              name == "rest_s" || name == "rest_on_one_foot_s" ||
+                              name == "crouch_m";
     if (cell.text.empty() && may_be_empty) return std::nullopt;
     const NumberText number = ParseNumber(cell.text);
     if (number.kind != NumberText::Kind::kNumber) {

@@ -18,6 +18,7 @@ struct FiledFootstep {
   std::optional<double> z = {};      ///< height of the level there [m]; none: the file does not say
   std::optional<double> rest = {};   ///< Footstep::rest [s]; none: the file does not say
   std::optional<double> rest_on_one_foot = {};  ///< the same of Footstep::rest_on_one_foot
+  std::optional<double> crouch = {};            ///< and of Footstep::crouch [m]
 };
 
 /// The footsteps of a file.
@@ -32,9 +33,9 @@ struct FiledFootsteps {
 /// Reads footsteps from a file of either form, which its ending says:
 ///
 /// - `.csv`: a row a footstep with the columns foot (left, right), x_m, y_m, yaw_rad or yaw_deg
-///   and, if wanted, via_height_m, duration_s, rest_s and rest_on_one_foot_s; other columns of a
-///   run's footsteps.csv are allowed, and rows whose column `footstep` is 0 say where the feet
-///   stand at the start.
+///   and, if wanted, via_height_m, duration_s, rest_s, rest_on_one_foot_s and crouch_m; other
+///   columns of a run's footsteps.csv are allowed, and rows whose column `footstep` is 0 say where
+///   the feet stand at the start.
 /// - `.yaml`, `.yml`: humanoid_nav_msgs/StepTarget[], a list or a map with the list `footsteps`, of
 ///   `pose: {x, y, theta}` and `leg` (0 right, 1 left). Its angles may be wrapped: each is taken as
 ///   the turn nearest to the yaw of the foot beside it.

@@ -51,7 +51,8 @@ void ReadFootstepsFile(const FootstepsFileConfig& file, const std::string& path,
                             step.duration,
                             {{}, step.z},
                             step.rest,
-                            step.rest_on_one_foot});
+                            step.rest_on_one_foot,
+                            step.crouch});
   }
 }
 

@@ -31,6 +31,7 @@ std::string KeyOf(const SuperposedWalk& walk, int j, bool by_place) {
       add(x);
     }
     for (const double x : half_step.shape.numbers()) add(x);
+    add(half_step.crouch_on_floor());
     add(walk.X_WS(i).height);
   }
   return key;

@@ -44,6 +44,7 @@ json HalfStepJson(const PlacedHalfStep& placed, bool levels) {
     if (traits.shape != nullptr) numbers[column] = half_step.shape.*traits.shape;
   }
   if (half_step.shape.crouch != 0.0) numbers["crouch_m"] = half_step.shape.crouch;
+  if (half_step.standing_crouch) numbers["standing_crouch_m"] = *half_step.standing_crouch;
   return numbers;
 }
 
@@ -65,7 +66,7 @@ json FamilyColumnsJson(bool levels) {
 json ClosedFormJson(const RobotModel& robot, const HalfStepSequence& sequence) {
   const auto* lipm = dynamic_cast<const Lipm*>(sequence.model.get());
   if (lipm == nullptr) return nullptr;
-  const bool levels = !OnOneLevel(sequence);
+  const bool levels = !OnOneLevel(sequence) || ChangesCrouch(sequence);
   json half_steps = json::array();
   for (const PlacedHalfStep& placed : sequence.half_steps) {
     half_steps.push_back(HalfStepJson(placed, levels));

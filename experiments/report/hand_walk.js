@@ -45,8 +45,9 @@ function fromWaist([wx, wy, yaw], height, sole) {
 /** Rows [{name: value}] of a walk in closed form at `times` [s], as in trajectory.csv. */
 export function rowsAt(walk, robot, limits, times) {
   const { com_ahead_m: ahead, waist_height_m: waistHeight, com_height_m: comHeight } = walk.form;
-  // The pendulum's height is that of the crouching robot.
-  const comStanding = comHeight + (walk.form.half_steps[0].crouch_m ?? 0);
+  // The pendulum's height is that of the robot at the start.
+  const { crouch_m: crouch = 0, standing_crouch_m: standing = crouch } = walk.form.half_steps[0];
+  const comStanding = comHeight + standing;
   const angles = [null, null]; // of the last row
   return times.map((t) => {
     const x = walk.stateAt(t);

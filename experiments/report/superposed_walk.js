@@ -14,7 +14,7 @@ const moved = ([x, y, yaw], [px, py]) => [
 // The state at rest in W, on the floor or at the via point. Places are [x, y, yaw], with z where there
 // are levels.
 function restState(half, onFloor, height) {
-  const { support, X_WS: place, X_SF: foot, crouch_m: crouch = 0 } = half;
+  const { support, X_WS: place, X_SF: foot, crouch_m: crouch = 0, standing_crouch_m: standing = crouch } = half;
   const [level, landing] = [place[3] ?? 0, foot[3] ?? 0];
   const swing = support === "left" ? "right" : "left";
   const sign = swing === "left" ? 1 : -1;
@@ -24,7 +24,7 @@ function restState(half, onFloor, height) {
   state.set([...moved(place, point), ...moved(place, point), place[2] + (onFloor ? 0.5 * foot[2] : 0)]);
   state.set([place[0], place[1], level, place[2]], footAt[support]);
   state.set([...moved(place, sole), level + (onFloor ? landing : height), place[2] + sole[2]], footAt[swing]);
-  state[waistZ] = level + (onFloor ? Math.min(0, landing) : 0) - crouch;
+  state[waistZ] = level + (onFloor ? Math.min(0, landing) - standing : -crouch);
   return state;
 }
 

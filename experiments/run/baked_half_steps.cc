@@ -64,6 +64,29 @@ BakedHalfSteps BakeHalfSteps(const RobotModel& robot, const ExperimentConfig& co
   return BakeHalfSteps(robot, config, FlatGround(), hooks);
 }
 
+CachedVolumes BakeSet(const RobotModel& robot, const ExperimentConfig& config, const StepSet& set,
+                      const PlanningHooks& hooks) {
+  SweptVolumeOptions options = config.swept_volumes.options;
+  const MarginLimits limits = Demandable(config.smoothing.limits, robot);
+  // One distance for all bodies, as far as any of them may be from its place.
+  options.clearance =
+      limits.demanded_of(MarginFamily::kClearance) + TubeShift(robot, limits.tube).body;
+  if (set.on_levels) {  // also the sole's while it moves over solids
+    options.clearance = std::max(options.clearance, limits.demanded_of(MarginFamily::kFloor));
+  }
+  std::string folder = DefaultCacheFolder();
+  if (!config.swept_volumes.cache.empty()) {
+    folder = (std::filesystem::path(config.directory) / config.swept_volumes.cache).string();
+  }
+  const auto progress = [&hooks](double done) {
+    if (hooks.progress) hooks.progress("bake", done);
+    return !hooks.stop.stop_requested();
+  };
+  return LoadOrBakeSweptVolumes(robot, *MotionModelOf(robot, ShapeOf(config.half_step)), set,
+                                options, folder,
+                                {.threads = 0, .stop = hooks.stop, .progress = progress});
+}
+
 BakedHalfSteps BakeHalfSteps(const RobotModel& robot, const ExperimentConfig& config,
                              const Ground& ground, const PlanningHooks& hooks) {
   const auto progress = [&hooks](const char* what) {
@@ -82,21 +105,7 @@ BakedHalfSteps BakeHalfSteps(const RobotModel& robot, const ExperimentConfig& co
   baked.size = set.size();
   if (hooks.stop.stop_requested()) return baked;
   if (set.size() == 0) ThrowNoHalfStep(robot, config);
-  SweptVolumeOptions options = config.swept_volumes.options;
-  const MarginLimits limits = Demandable(config.smoothing.limits, robot);
-  // One distance for all bodies, as far as any of them may be from its place.
-  options.clearance =
-      limits.demanded_of(MarginFamily::kClearance) + TubeShift(robot, limits.tube).body;
-  if (set.on_levels) {  // also the sole's while it moves over solids
-    options.clearance = std::max(options.clearance, limits.demanded_of(MarginFamily::kFloor));
-  }
-  std::string folder = DefaultCacheFolder();
-  if (!config.swept_volumes.cache.empty()) {
-    folder = (std::filesystem::path(config.directory) / config.swept_volumes.cache).string();
-  }
-  baked.cached = LoadOrBakeSweptVolumes(
-      robot, *MotionModelOf(robot, set.prototype.shape), set, options, folder,
-      {.threads = 0, .stop = hooks.stop, .progress = progress("bake")});
+  baked.cached = BakeSet(robot, config, set, hooks);
   baked.wall = SteadySeconds() - set_done;
   return baked;
 }

@@ -38,6 +38,10 @@ BakedHalfSteps BakeHalfSteps(const RobotModel& robot, const ExperimentConfig& co
 BakedHalfSteps BakeHalfSteps(const RobotModel& robot, const ExperimentConfig& config,
                              const Ground& ground, const PlanningHooks& hooks);
 
+/// Takes the swept volumes of a set from the cache, or bakes them and puts them there.
+CachedVolumes BakeSet(const RobotModel& robot, const ExperimentConfig& config, const StepSet& set,
+                      const PlanningHooks& hooks);
+
 /// What stepping in place, where the config's start has the feet, misses, as a clause; "": nothing.
 std::string MissedInPlace(const RobotModel& robot, const Scene& scene,
                           const ExperimentConfig& config);

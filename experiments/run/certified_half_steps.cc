@@ -76,7 +76,9 @@ std::vector<double> RisesOn(const Ground& ground, const RobotModel& robot) {
 HalfStepCertifier::HalfStepCertifier(const RobotModel& robot, const Scene& scene,
                                      const ExperimentConfig& config)
     : HalfStepCertifier(MarginEvaluator(robot, scene, config.smoothing.limits),
-                        config.smoothing.certification) {}
+                        config.smoothing.certification) {
+  model_ = MotionModelOf(robot, ShapeOf(config.half_step));
+}
 
 HalfStepCertifier::HalfStepCertifier(const MarginEvaluator& evaluator,
                                      const CertificationOptions& options)
@@ -85,14 +87,20 @@ HalfStepCertifier::HalfStepCertifier(const MarginEvaluator& evaluator,
 bool HalfStepCertifier::Certifies(const HalfStep& half_step, const Foothold& X_WS) const {
   MarginEvaluator::Scratch scratch = evaluator_.MakeScratch();
   return AcceptsHalfStep(feasibility_, half_step, X_WS,
-                         MotionModelOf(evaluator_.robot(), half_step.shape), &scratch);
+                         model_ ? model_ : MotionModelOf(evaluator_.robot(), half_step.shape),
+                         &scratch);
 }
 
 StepSet CertifiedHalfSteps(const RobotModel& robot, const ExperimentConfig& config,
                            const std::function<bool(double)>& progress) {
+  return CertifiedHalfSteps(robot, config, PrototypeOf(config), progress);
+}
+
+StepSet CertifiedHalfSteps(const RobotModel& robot, const ExperimentConfig& config,
+                           const HalfStep& prototype, const std::function<bool(double)>& progress) {
   const HalfStepCertifier certifier(robot, Scene{}, config);
   return MakeStepSet(
-      config.step_set, PrototypeOf(config),
+      config.step_set, prototype,
       [&](const HalfStep& half_step) {
         return certifier.Certifies(half_step, {}) &&
                (robot.legs_are_mirrored || certifier.Certifies(half_step.Mirrored(), {}));

@@ -34,6 +34,7 @@ FootstepConfig ToConfig(const Footstep& footstep, const Place& place) {
   config.on = SaidInConfig(footstep.X_WF, place);
   if (footstep.rest > 0.0) config.rest = footstep.rest;
   if (footstep.rest_on_one_foot > 0.0) config.rest_on_one_foot = footstep.rest_on_one_foot;
+  if (footstep.crouch) config.crouch = footstep.crouch, config.via_height = footstep.via_height;
   return config;
 }
 

@@ -16,8 +16,11 @@ bool AcceptsHalfStep(const FeasibilityTest& test, const HalfStep& half_step, con
                           .X_WF = X_WS * half_step.X_SF,
                           .via_height = half_step.via_height,
                           .duration = half_step.duration};
-  const HalfStepSequence sequence =
+  HalfStepSequence sequence =
       MakeSequence(start, {footstep}, half_step.via_lateral, half_step.shape, model);
+  for (PlacedHalfStep& placed : sequence.half_steps) {
+    placed.half_step.standing_crouch = half_step.standing_crouch;
+  }
   const SuperposedWalk walk(sequence, PlannedMotion(sequence));
   const int i = half_step.kind == HalfStepKind::kUp ? 0 : 1;
   return test.Check(walk, {walk.start_of(i), walk.end_of(i)}, scratch).verdict ==

@@ -15,6 +15,10 @@ nlohmann::ordered_json PlacesJson(const PlannedWalk& walk) {
     places.push_back(
         {{"foot", Name(footstep.side)}, {"x_m", at.x}, {"y_m", at.y}, {"yaw_rad", at.yaw}});
     if (walk.on_levels) places.back()["z_m"] = at.height;
+    if (footstep.crouch) {
+      places.back()["via_height_m"] = footstep.via_height;
+      places.back()["crouch_m"] = *footstep.crouch;
+    }
     if (!walk.in_time) continue;
     places.back()["rest_s"] = footstep.rest;
     places.back()["rest_on_one_foot_s"] = footstep.rest_on_one_foot;

@@ -21,9 +21,11 @@ std::string PlanYaml(const PlannedWalk& walk) {
              f.Number("y_m", &step->X_WF.y, {});
              f.Number("yaw_deg", &step->X_WF.yaw, {});
              if (walk.on_levels) f.OptionalNumber("z_m", &step->on.z, {});
+             f.OptionalNumber("via_height_m", &step->via_height, {.none_left_out = true});
              f.OptionalNumber("rest_s", &step->rest, {.none_left_out = true});
              f.OptionalNumber("rest_on_one_foot_s", &step->rest_on_one_foot,
                               {.none_left_out = true});
+             f.OptionalNumber("crouch_m", &step->crouch, {.none_left_out = true});
            });
          });
 }

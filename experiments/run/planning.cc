@@ -10,6 +10,7 @@
 #include "experiments/run/half_step_table.h"
 #include "experiments/run/level_crossings.h"
 #include "experiments/run/narrow_surfaces.h"
+#include "experiments/run/plan_between_heights.h"
 #include "experiments/run/plan_by_volumes.h"
 #include "experiments/run/plan_inputs.h"
 #include "experiments/run/plan_over.h"
@@ -21,6 +22,7 @@
 #include "wpg/check.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/suggestion.h"
+#include "wpg/files/text.h"
 #include "wpg/nth.h"
 
 namespace halfstep {
@@ -126,7 +128,7 @@ void PlanByForms(const Place& place, const PlanningHooks& hooks, PlannedWalk* wa
 
 // By volumes. Where that finds nothing and something hangs so low that the standing robot does not
 // pass, while a lower one might, it is searched with half-steps that are crouched all the way; that
-// first, where what hangs bars every way.
+// first, where what hangs bars every way. At last with half-steps at both heights of the waist.
 void PlanUprightOrCrouched(const Place& place, const PlanningHooks& hooks, PlannedWalk* walk) {
   const Overhead overhead(walk->config, place);
   if (!overhead.may_help()) return PlanByVolumes(place, hooks, walk);
@@ -137,6 +139,12 @@ void PlanUprightOrCrouched(const Place& place, const PlanningHooks& hooks, Plann
     PlannedWalk planned = asked;
     planned.config.half_step = half_step;
     PlanByVolumes(place, hooks, &planned);
+    planned.config.planner.effort = effort;
+    return planned;
+  };
+  const auto plan_between = [&](const HalfStepConfig& lower) {
+    PlannedWalk planned = asked;
+    PlanBetweenHeights(place, {lower.crouch, lower.via_height}, hooks, &planned);
     planned.config.planner.effort = effort;
     return planned;
   };
@@ -165,6 +173,22 @@ void PlanUprightOrCrouched(const Place& place, const PlanningHooks& hooks, Plann
   if (crouched_first) upright = plan_with(own);
   *walk = std::move(upright);
   if (has_ended(*walk)) return;
+  for (const CrouchedForm& form : forms) {
+    PlannedWalk between = plan_between(form.half_step);
+    const std::string lower = Differences(form.half_step, own);
+    if (between.plan.status == PlanStatus::kSolved) {
+      const auto low = std::ranges::count_if(between.plan.footsteps, [&](const Footstep& footstep) {
+        return footstep.crouch == form.half_step.crouch;
+      });
+      between.plan.sentence +=
+          Formatted(", %td of them with {", low) + lower + "}, since " + form.reason;
+    }
+    if (has_ended(between)) {
+      *walk = std::move(between);
+      return;
+    }
+    tried += ", nor one that changes between that and the config's";
+  }
   walk->plan.sentence +=
       forms.empty() ? "; no half-step is certified that is crouched enough" : tried;
 }
@@ -204,7 +228,8 @@ PlannedWalk PlanWalk(const ExperimentConfig& config, const Place& place,
                                    : PlanUprightOrCrouched(place, hooks, &walk);
     const bool may_prove = in_time || !AnythingMoves(place.scene);
     const bool upright = walk.changed_half_step.empty();
-    if (!walk.in_the_way.empty() && upright && !walk.on_levels && may_prove) {
+    if (!walk.in_the_way.empty() && upright && !ChangesHeight(walk) && !walk.on_levels &&
+        may_prove) {
       PlanOver(config, place, hooks, &walk);
     }
   }

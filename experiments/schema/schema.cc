@@ -38,7 +38,7 @@ std::vector<TableSchema> Tables() {
   SweepConfig sweep;
   sweep.parts = {.bound = true, .replay = true};
   std::vector<TableSchema> tables = {
-      {"run/footsteps", FootstepsColumns(true, true)},
+      {"run/footsteps", FootstepsColumns(true, true, true)},
       {"run/half_steps", HalfStepsColumns(HalfStepsExtent::kHeights)},
       {"run/trajectory", TrajectoryColumns()},
       {"run/overlaps", OverlapsColumns()},

@@ -51,7 +51,7 @@ bool HasRests(const HalfStepSequence& sequence) {
                              [](const PlacedHalfStep& placed) { return placed.rest != 0.0; });
 }
 
-CsvColumns FootstepsColumns(bool with_heights, bool with_rests) {
+CsvColumns FootstepsColumns(bool with_heights, bool with_rests, bool with_crouches) {
   CsvColumns columns = {
       {"footstep", kInteger, "", "0 twice: the feet at the start; then 1, 2, ..."},
       {"foot", kString, "", "left or right"},
@@ -68,25 +68,32 @@ CsvColumns FootstepsColumns(bool with_heights, bool with_rests) {
     columns.push_back({"rest_s", kNumber, "s", "at rest on both feet before the step"});
     columns.push_back({"rest_on_one_foot_s", kNumber, "s", "at rest on one foot before it lands"});
   }
+  if (with_crouches) {
+    columns.push_back(
+        {"crouch_m", kNumber, "m", "how far the waist is kept below where it stands"});
+  }
   return columns;
 }
 
 CsvFile FootstepsCsv(const HalfStepSequence& sequence, int before) {
-  const bool has_heights = HasHeights(sequence), has_rests = HasRests(sequence);
-  CsvWriter csv(FootstepsColumns(has_heights, has_rests));
+  const bool has_heights = HasHeights(sequence), has_rests = HasRests(sequence),
+             has_crouches = ChangesCrouch(sequence);
+  CsvWriter csv(FootstepsColumns(has_heights, has_rests, has_crouches));
   const auto row = [&](int index, const Footstep& footstep) {
     const Foothold& X_WF = footstep.X_WF;
     csv.Cell(index).Cell(Name(footstep.side)).Cell(X_WF.x).Cell(X_WF.y);
     if (has_heights) csv.Cell(X_WF.height);
     csv.Cell(X_WF.yaw).Cell(footstep.via_height).Cell(footstep.duration);
     if (has_rests) csv.Cell(footstep.rest).Cell(footstep.rest_on_one_foot);
+    if (has_crouches) csv.Cell(*footstep.crouch);
     csv.EndRow();
   };
   for (Side side : {Side::kLeft, Side::kRight}) {
     row(0, {.side = side,
             .X_WF = Nth(sequence.start, Index(side)),
             .via_height = 0.0,
-            .duration = 0.0});
+            .duration = 0.0,
+            .crouch = sequence.half_steps.front().half_step.crouch_on_floor()});
   }
   for (int step = 0; step < sequence.num_steps(); ++step) {
     const PlacedHalfStep& down = Nth(sequence.half_steps, 2 * step + 1);
@@ -95,7 +102,8 @@ CsvFile FootstepsCsv(const HalfStepSequence& sequence, int before) {
                             .via_height = down.half_step.via_height,
                             .duration = down.half_step.duration,
                             .rest = Nth(sequence.half_steps, 2 * step).rest,
-                            .rest_on_one_foot = down.rest});
+                            .rest_on_one_foot = down.rest,
+                            .crouch = down.half_step.shape.crouch});
   }
   return csv.file();
 }

@@ -41,8 +41,9 @@ bool HasHeights(const HalfStepSequence& sequence);
 /// Whether the plan rests between half-steps.
 bool HasRests(const HalfStepSequence& sequence);
 /// Columns of footsteps.csv; those of a plan with a sole elsewhere than at z = 0 have its height,
-/// those of a plan that rests its rests.
-CsvColumns FootstepsColumns(bool with_heights, bool with_rests);
+/// those of a plan that rests its rests, those of a plan in which the waist changes its height
+/// that.
+CsvColumns FootstepsColumns(bool with_heights, bool with_rests, bool with_crouches);
 /// Each table of a run folder; columns: experiments/files.md.
 /// `before`: so many footsteps are taken before those of the sequence.
 CsvFile FootstepsCsv(const HalfStepSequence& sequence, int before = 0);

@@ -243,10 +243,12 @@ void CheckFootsteps(const std::vector<FootstepRow>& rows, const WalkPlan& planne
     findings->Disagree(Formatted("footsteps.csv: %zu rows instead of %zu", rows.size(), steps + 2));
     return;
   }
+  const bool changes_crouch = ChangesCrouch(planned);
   for (size_t i = 0; i < rows.size(); ++i) {
     Side side = i == 0 ? Side::kLeft : Side::kRight;
     Foothold X_WF = planned.start[std::min<size_t>(i, 1)];
     double height = 0, duration = 0, rest = 0, rest_on_one = 0;
+    double crouch = StartCrouch(planned);
     if (i >= 2) {
       const PlacedHalfStep& down = planned.half_steps[2 * (i - 2) + 1];
       side = down.half_step.swing();
@@ -255,12 +257,14 @@ void CheckFootsteps(const std::vector<FootstepRow>& rows, const WalkPlan& planne
       duration = down.half_step.duration;
       rest = planned.half_steps[2 * (i - 2)].rest;
       rest_on_one = down.rest;
+      crouch = down.half_step.crouch;
     }
     const FootstepRow& row = rows[i];
     if (row.foot != Name(side) || !Same(row.X_WF.x, X_WF.x) || !Same(row.X_WF.y, X_WF.y) ||
         !Same(row.X_WF.yaw, X_WF.yaw) || !Same(row.z, X_WF.height) ||
         !Same(row.via_height, height) || !Same(row.duration, duration) || !Same(row.rest, rest) ||
-        !Same(row.rest_on_one, rest_on_one)) {
+        !Same(row.rest_on_one, rest_on_one) ||
+        (row.crouch ? !Same(*row.crouch, crouch) : changes_crouch)) {
       findings->Disagree(Formatted("footsteps.csv:%zu: not the footstep of config.yaml", i + 2));
     }
   }

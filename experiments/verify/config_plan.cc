@@ -68,7 +68,8 @@ std::optional<WalkPlan> PlanOf(const ExperimentConfig& config, const RobotModel&
                          .via_height = step.via_height.value_or(config.half_step.via_height),
                          .duration = step.duration.value_or(config.half_step.duration),
                          .rest = step.rest.value_or(0),
-                         .rest_on_one = step.rest_on_one_foot.value_or(0)});
+                         .rest_on_one = step.rest_on_one_foot.value_or(0),
+                         .crouch = step.crouch});
   }
   if (!borne) return std::nullopt;
   return PlanOf(*soles, footsteps, HalfStepOf(config.half_step));

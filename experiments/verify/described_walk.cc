@@ -19,7 +19,7 @@ DescribedWalk::DescribedWalk(const RobotModel& robot, const WalkPlan& planned,
                              const std::optional<double>& floor)
     : robot_(robot),
       floor_(floor ? WalkFloor(*floor) : WalkFloor(planned)),
-      crouch_(planned.half_steps.empty() ? 0 : planned.half_steps.front().half_step.crouch),
+      crouch_(StartCrouch(planned)),
       pieces_(std::make_shared<const std::vector<Piece>>(PiecesOf(robot, planned, rows))),
       size_(pieces_->size()) {
   Guide(0.0);

@@ -40,9 +40,10 @@ HalfStepMotion::HalfStepMotion(const PlacedHalfStep& placed, double omega)
                  "rise on " << form().rise_begin << " … " << form().rise_end);
   const double aside = Sign(half_step_.swing());
   const Foothold& X_SF = half_step_.X_SF;
-  const double crouch = half_step_.crouch;
+  const double crouch = half_step_.crouch,
+               standing_crouch = half_step_.standing_crouch.value_or(crouch);
   const WalkNumbers standing = AtRest(placed, X_SF.Planar().position() / 2, X_SF.yaw / 2,
-                                      std::min(0.0, X_SF.height) - crouch, X_SF);
+                                      std::min(0.0, X_SF.height) - standing_crouch, X_SF);
   const WalkNumbers at_via =
       AtRest(placed, {0, aside * half_step_.support_point}, 0, -crouch,
              {{form().via_along, aside * form().via_lateral, 0}, half_step_.via_height});

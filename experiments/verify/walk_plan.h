@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "experiments/verify/form_columns.h"
@@ -21,6 +22,8 @@ struct HalfStep {
   double support_point = 0;
   FormColumns form;   ///< its `footstep` has no meaning here
   double crouch = 0;  ///< how far the waist is kept below where the robot file has it [m]
+  /// The same while both feet stand; none: as far.
+  std::optional<double> standing_crouch = {};
 
   Side swing() const { return Opposite(support); }  ///< the foot that moves
 };
@@ -34,12 +37,13 @@ struct PlacedHalfStep {
 
 /// A footstep: where a foot is put, and how.
 struct PlannedFootstep {
-  Side side = Side::kLeft;  ///< the foot
-  Foothold X_WF;            ///< its sole's place, in W
-  double via_height = 0;    ///< of both half-steps that lead there [m]
-  double duration = 0;      ///< of each of them [s]
-  double rest = 0;          ///< before the first of them begins, on both feet [s]
-  double rest_on_one = 0;   ///< between them, on one foot [s]
+  Side side = Side::kLeft;            ///< the foot
+  Foothold X_WF;                      ///< its sole's place, in W
+  double via_height = 0;              ///< of both half-steps that lead there [m]
+  double duration = 0;                ///< of each of them [s]
+  double rest = 0;                    ///< before the first of them begins, on both feet [s]
+  double rest_on_one = 0;             ///< between them, on one foot [s]
+  std::optional<double> crouch = {};  ///< of its half-steps from the via point on [m]; none: common
 };
 
 /// What footsteps are planned to be: half-steps 2j (up) and 2j + 1 (down) are step j.
@@ -50,6 +54,11 @@ struct WalkPlan {
   int size() const { return static_cast<int>(half_steps.size()); }  ///< n
   int num_steps() const { return size() / 2; }                      ///< n/2
 };
+
+/// How far the waist is kept below where it stands, at the start [m].
+double StartCrouch(const WalkPlan& plan);
+/// Whether it changes that later.
+bool ChangesCrouch(const WalkPlan& plan);
 
 /// The half-steps of footsteps from `start`. Of `common`, what is not a footstep's own is taken.
 WalkPlan PlanOf(const std::array<Foothold, 2>& start, const std::vector<PlannedFootstep>& footsteps,

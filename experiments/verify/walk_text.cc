@@ -109,6 +109,9 @@ std::vector<FootstepRow> ReadFootstepsAfter(const std::string& path, const std::
   // Where a plan rests between half-steps.
   const bool has_rests = text.substr(0, text.find('\n')).find(",rest_s,") != std::string::npos;
   if (has_rests) columns.insert(columns.end(), {"rest_s", "rest_on_one_foot_s"});
+  // Where the waist changes its height.
+  const bool has_crouches = text.substr(0, text.find('\n')).ends_with(",crouch_m");
+  if (has_crouches) columns.emplace_back("crouch_m");
   const CsvText csv(path, text, columns);
   std::vector<FootstepRow> rows;
   for (size_t i = 0; i < csv.size(); ++i) {
@@ -122,6 +125,7 @@ std::vector<FootstepRow> ReadFootstepsAfter(const std::string& path, const std::
                     .duration = csv.Number(i, yaw + 2),
                     .rest = has_rests ? csv.Number(i, yaw + 3) : 0.0,
                     .rest_on_one = has_rests ? csv.Number(i, yaw + 4) : 0.0});
+    if (has_crouches) rows.back().crouch = csv.Number(i, columns.size() - 1);
   }
   return rows;
 }

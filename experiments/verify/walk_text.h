@@ -44,6 +44,7 @@ struct FootstepRow {
   double z = 0;                         ///< its height [m]
   double via_height = 0, duration = 0;  ///< [m], [s]
   double rest = 0, rest_on_one = 0;     ///< on both feet before its step, on one foot [s]
+  std::optional<double> crouch = {};    ///< of its step [m]; none: that of config.yaml
 };
 
 /// A row of summary.csv.

@@ -63,14 +63,17 @@ std::vector<int> ClassicSubset(const StepSet& set) {
       return (X_SF.Planar().position() - wanted.position()).norm() +
              kMetresPerRadian * std::fabs(X_SF.yaw - wanted.yaw);
     };
-    // On levels, for each difference of height: elements of one are side by side.
+    // For each difference of height, of levels or of the waist: elements of one are side by side.
+    const auto index = [&](auto at) { return static_cast<int>(at - set.placements.begin()); };
     for (auto first = set.placements.begin(); first != set.placements.end();) {
-      const auto last = std::find_if(first, set.placements.end(), [&](const Foothold& X_SF) {
-        return X_SF.height != first->height;
-      });
+      auto last = first;
+      while (last != set.placements.end() && last->height == first->height &&
+             set.ChangeOf(index(last)) == set.ChangeOf(index(first))) {
+        ++last;
+      }
       const auto nearest = std::min_element(
           first, last, [&off](const Foothold& x, const Foothold& y) { return off(x) < off(y); });
-      subset.push_back(static_cast<int>(nearest - set.placements.begin()));
+      subset.push_back(index(nearest));
       first = last;
     }
   }

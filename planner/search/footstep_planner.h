@@ -36,6 +36,7 @@ struct Acceptance {
 struct StepState {
   Foothold X_WS;               ///< where the foot that carries stands, in W
   Side support = Side::kLeft;  ///< that foot
+  int form = 0;                ///< the waist's height, of StepSet::forms
   friend bool operator==(const StepState&, const StepState&) = default;
 };
 

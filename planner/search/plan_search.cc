@@ -202,11 +202,13 @@ std::vector<Footstep> FootstepsOf(const PlanRequest& request, const StepGraph& g
   StepState state = plan.start;
   const auto rests = RestsOf(plan.timed, request.set.prototype.duration);
   for (int k : plan.ks) {
+    const HalfStep like = request.set.PrototypeOf(state.form);
     state = graph.After(state, k);
     footsteps.push_back({.side = state.support,
                          .X_WF = state.X_WS,
-                         .via_height = request.set.prototype.via_height,
-                         .duration = request.set.prototype.duration});
+                         .via_height = like.via_height,
+                         .duration = like.duration});
+    if (request.set.num_forms() > 1) footsteps.back().crouch = like.shape.crouch;
     if (rests.empty()) continue;
     const auto& [on_both_feet, on_one_foot] = rests[footsteps.size() - 1];
     footsteps.back().rest = on_both_feet;

@@ -102,6 +102,7 @@ bool Follow(const PlanStates& path, size_t from, StepState state, StepGraph* gra
     graph->Landings(state, &landings);
     order.clear();
     for (int k = 0; k < graph->size(); ++k) {
+      if (!graph->Fits(state, k)) continue;
       const Foothold& old = path.states[j].X_WS;
       Foothold& X_WF = Nth(landings, k);
       constexpr double kNear = 0.15;  // [m] heights of farther ones are not looked up
@@ -121,7 +122,7 @@ bool Follow(const PlanStates& path, size_t from, StepState state, StepGraph* gra
       return TakeElement(state, choice.second, last, graph, edges, plan);
     });
     if (free == order.end()) return false;
-    state = {Nth(landings, free->second), Opposite(state.support)};
+    state = graph->After(state, free->second, Nth(landings, free->second));
   }
   return true;
 }

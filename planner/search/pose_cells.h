@@ -10,8 +10,8 @@
 namespace halfstep {
 
 /// A lattice that tells states apart: two states in one cell count as the same, though each keeps
-/// its exact pose; those at different heights do not. Smaller cells: more states to search; larger
-/// ones: narrow ways are missed.
+/// its exact pose; those at different heights, of soles or waist, do not. Smaller cells: more
+/// states to search; larger ones: narrow ways are missed.
 struct PoseCells {
   double position = 0.02;  ///< edge [m] > 0
   double yaw = 0.05;       ///< edge [rad] > 0, modulo 2π
@@ -30,7 +30,7 @@ struct PoseCells {
     // Of 0 it is 0.
     std::uint64_t height = std::bit_cast<std::uint64_t>(state.X_WS.height + 0.0);
     height = (height ^ height >> 32) * 0x9e3779b97f4a7c15u;
-    return planar ^ height;
+    return planar ^ height ^ static_cast<std::uint64_t>(state.form) * 0xd1b54a32d192ed03u;
   }
 };
 

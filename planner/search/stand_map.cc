@@ -14,13 +14,15 @@ namespace {
 constexpr double kFar = std::numeric_limits<double>::infinity();
 constexpr int kYaws = 8;
 
-// The element that lands nearest to beside the support sole.
-int BesideElement(const StepSet& set, const StepGraph& graph) {
+// The element of a height of the waist that lands nearest to beside the support sole; −1: none.
+int BesideElement(const StepSet& set, const StepGraph& graph, int form) {
   constexpr double kMetresPerRadian = 0.3;
-  int best = 0;
+  int best = -1;
   double least = kFar;
   for (int k = 0; k < graph.size(); ++k) {
-    const Foothold& X_SF = Nth(set.placements, Nth(graph.elements(), k));
+    const int i = Nth(graph.elements(), k);
+    if (set.ChangeOf(i) != StepSet::Change{form, form}) continue;
+    const Foothold& X_SF = Nth(set.placements, i);
     const double off = std::fabs(X_SF.x) + kMetresPerRadian * std::fabs(X_SF.yaw) +
                        0.1 * std::fabs(X_SF.y) + std::fabs(X_SF.height);
     if (off < least) {
@@ -49,9 +51,15 @@ Eigen::Vector2d StandMap::PlaceOf(int cell) const {
 }
 
 void StandMap::FindFree(const StepSet& set, const StepState& start, StepGraph* graph) {
-  const int k = BesideElement(set, *graph), cells = count_.prod();
-  const int i = Nth(graph->elements(), k);
+  const int cells = count_.prod();
   free_.assign(static_cast<size_t>(cells), false);
+  for (int form = 0; form < set.num_forms(); ++form) AddFree(set, start, form, graph);
+}
+
+void StandMap::AddFree(const StepSet& set, const StepState& start, int form, StepGraph* graph) {
+  const int k = BesideElement(set, *graph, form), cells = count_.prod();
+  if (k < 0) return;
+  const int i = Nth(graph->elements(), k);
   for (int cell = 0; cell < cells; ++cell) {
     const Eigen::Vector2d p_W = PlaceOf(cell);
     for (int yaw = 0; yaw < kYaws && !Nth(free_, cell); ++yaw) {
@@ -59,7 +67,7 @@ void StandMap::FindFree(const StepSet& set, const StepState& start, StepGraph* g
       const Foothold X_WF({p_W.x(), p_W.y(), turn}, start.X_WS.height);
       for (Side support : {Side::kLeft, Side::kRight}) {
         const Foothold X_WS = X_WF * set.Placement(i, support).Inverse();
-        const StepState from{X_WS, support};
+        const StepState from{X_WS, support, form};
         if (!graph->DownIsFree(from, k) || !graph->UpIsFree(from, k)) continue;
         free_[static_cast<size_t>(cell)] = true;
         break;

@@ -23,6 +23,8 @@ class StandMap {
  private:
   Eigen::Vector2d PlaceOf(int cell) const;
   void FindFree(const StepSet& set, const StepState& start, StepGraph* graph);
+  // The places that are free at a height of the waist.
+  void AddFree(const StepSet& set, const StepState& start, int form, StepGraph* graph);
   void FindWays(const StepGraph& graph);
 
   Eigen::Vector2d origin_;

@@ -10,16 +10,18 @@
 namespace halfstep {
 
 std::vector<double> StepCost::OfElements(const StepSet& set) const {
-  if (kind == CostKind::kSteps) return std::vector<double>(set.placements.size(), 1.0);
-  std::vector<double> costs(set.placements.size(), 2.0 * set.prototype.duration);
-  if (kind == CostKind::kRawDuration) return costs;
-  for (int i = 0; i < set.size(); ++i) {
+  std::vector<double> costs(set.placements.size(),
+                            kind == CostKind::kSteps ? 1.0 : 2.0 * set.prototype.duration);
+  for (int i = 0; kind == CostKind::kSmoothedDuration && i < set.size(); ++i) {
     double way = 0.0, turn = 0.0;
     for (const HalfStep& half_step : {set.Down(i, Side::kLeft), set.Up(i, Side::kLeft)}) {
       way += (half_step.X_SF.Planar().position() - half_step.via().position()).norm();
       turn += std::fabs(half_step.X_SF.yaw);
     }
     Nth(costs, i) = step_time + time_per_metre * way + time_per_radian * turn;
+  }
+  for (int i = 0; i < set.size(); ++i) {
+    if (const auto [from, to] = set.ChangeOf(i); from != to) Nth(costs, i) *= kChangeOfHeight;
   }
   return costs;
 }

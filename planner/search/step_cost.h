@@ -19,6 +19,9 @@ struct StepCost {
   double step_time = 0.89;        ///< [s] > 0
   double time_per_metre = 1.06;   ///< [s/m] ≥ 0
   double time_per_radian = 0.06;  ///< [s/rad] ≥ 0
+  /// What an element that changes the waist's height costs of another one: so that plans change it
+  /// no more often than they have to.
+  static constexpr double kChangeOfHeight = 1.25;
 
   /// The cost of each element: 1, 2T [s] or the estimate [s]. An element's way is that of its down
   /// half-step and of the up half-step that follows it.

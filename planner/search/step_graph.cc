@@ -43,6 +43,9 @@ StepGraph::StepGraph(const PlanRequest& request, std::vector<int> elements)
   HALFSTEP_CHECK(
       !one_level || !request.in_air || request.in_air->X_WS.height == request.start[0].height,
       "on one foot at " << request.in_air->X_WS.height << " m");
+  if (request.set.num_forms() > 1) {
+    for (int i : elements_) changes_.push_back(request.set.ChangeOf(i));
+  }
   for (Side support : {Side::kLeft, Side::kRight}) {
     for (int i : elements_) {
       if (level_set) Nth(request.set.placements, i).CheckLevel();
@@ -54,14 +57,17 @@ StepGraph::StepGraph(const PlanRequest& request, std::vector<int> elements)
 std::vector<StepState> StepGraph::FreeStarts() const {
   if (request_.in_air) return {*request_.in_air};
   std::vector<StepState> starts;
-  for (Side support : {Side::kLeft, Side::kRight}) {
-    const Foothold& X_WS = Nth(request_.start, Index(support));
-    HalfStep up = request_.set.prototype;
-    up.support = support;
-    up.kind = HalfStepKind::kUp;
-    up.X_SF = X_WS.Inverse() * Nth(request_.start, Index(Opposite(support)));
-    if (!request_.start_is_free || request_.start_is_free(up, X_WS)) {
-      starts.push_back({X_WS, support});
+  for (int form = 0; form < request_.set.num_forms(); ++form) {
+    for (Side support : {Side::kLeft, Side::kRight}) {
+      const Foothold& X_WS = Nth(request_.start, Index(support));
+      HalfStep up = request_.set.PrototypeOf(form);
+      up.support = support;
+      up.kind = HalfStepKind::kUp;
+      up.X_SF = X_WS.Inverse() * Nth(request_.start, Index(Opposite(support)));
+      if (form > 0) up.standing_crouch = request_.set.prototype.shape.crouch;
+      if (!request_.start_is_free || request_.start_is_free(up, X_WS)) {
+        starts.push_back({X_WS, support, form});
+      }
     }
   }
   return starts;
@@ -94,12 +100,13 @@ void StepGraph::Landings(const StepState& from, std::vector<Foothold>* X_WF) con
 }
 
 bool StepGraph::DownIsFree(const StepState& from, int k) {
-  if (IsForbidden(from, k)) return false;
+  if (!Fits(from, k) || IsForbidden(from, k)) return false;
   ++queries_;
   return request_.query.DownIsFree(Nth(elements_, k), from.support, from.X_WS);
 }
 
 bool StepGraph::UpIsFree(const StepState& from, int k) {
+  if (!Fits(from, k)) return false;
   ++queries_;
   return request_.query.UpIsFree(Nth(elements_, k), from.support, from.X_WS);
 }

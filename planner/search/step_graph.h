@@ -31,7 +31,8 @@ class StepGraph {
   /// Where supporting soles stay, in W [m].
   const Eigen::AlignedBox2d& workspace() const { return workspace_; }
 
-  /// The states after an up half-step from the start that is free: none, one or two. With a foot in
+  /// The states after an up half-step from the start that is free: none, one or two
+  /// of each height of the waist. With a foot in
   /// the air already: that state.
   std::vector<StepState> FreeStarts() const;
 
@@ -39,8 +40,14 @@ class StepGraph {
   /// the height is NaN where PlanRequest::ground bears no sole there.
   Foothold Landing(const StepState& from, int k) const;
   /// The state after that landing and its up half-step.
-  StepState After(const StepState& from, int k) const {
-    return {Landing(from, k), Opposite(from.support)};
+  StepState After(const StepState& from, int k) const { return After(from, k, Landing(from, k)); }
+  /// The same where Landing() is known.
+  StepState After(const StepState& from, int k, const Foothold& X_WF) const {
+    return {X_WF, Opposite(from.support), changes_.empty() ? from.form : Nth(changes_, k).to};
+  }
+  /// Whether element k begins at the waist's height of a state; else its half-steps are not free.
+  bool Fits(const StepState& from, int k) const {
+    return changes_.empty() || Nth(changes_, k).from == from.form;
   }
   /// Landing() of all elements at once: exactly the same poses, but with PlanRequest::ground, where
   /// heights are NaN until they are looked up, by Settled().
@@ -100,6 +107,7 @@ class StepGraph {
   std::vector<int> elements_;
   std::vector<double> costs_;                        // by k
   std::array<std::vector<Foothold>, 2> placements_;  // by support and k
+  std::vector<StepSet::Change> changes_;             // by k; empty: all are of one form
   StepReach reach_;
   Eigen::AlignedBox2d workspace_;
   std::vector<Edge> forbidden_;

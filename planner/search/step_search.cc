@@ -119,7 +119,7 @@ class StepSearch::Weighted {
   // Of an element that lands at X_WF, when there is no need to rest.
   Promise Promises(const Node& node, int k, const Foothold& X_WF) const {
     const StepState& from = node.edge.to.state;
-    return PromiseOf({X_WF, Opposite(from.support)}, node.cost + graph_.cost(k),
+    return PromiseOf(graph_.After(from, k, X_WF), node.cost + graph_.cost(k),
                      graph_.IsGoal(from, X_WF));
   }
 
@@ -144,7 +144,8 @@ class StepSearch::Weighted {
     promises_.clear();
     for (int k = 0; k < graph_.size(); ++k) {
       const Foothold& X_WF = Nth(landings_, k);
-      const bool may_bear = graph_.looks_up_heights() || graph_.IsLevel(X_WF.height);
+      const bool may_bear =
+          graph_.Fits(from, k) && (graph_.looks_up_heights() || graph_.IsLevel(X_WF.height));
       promises_.push_back(may_bear ? Promises(node, k, X_WF) : Promise{0.0, 0.0, false});
       if (promises_.back().wanted) node.order.push_back(static_cast<std::uint32_t>(k));
     }

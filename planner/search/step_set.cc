@@ -13,8 +13,16 @@ Foothold StepSet::Placement(int i, Side support) const {
   return support == Side::kLeft ? X_SF : X_SF.Mirrored();
 }
 
+HalfStep StepSet::PrototypeOf(int form) const {
+  HalfStep one = prototype;
+  if (forms.empty()) return one;
+  one.shape.crouch = Nth(forms, form).crouch;
+  one.via_height = Nth(forms, form).via_height;
+  return one;
+}
+
 HalfStep StepSet::Down(int i, Side support) const {
-  HalfStep down = prototype;
+  HalfStep down = PrototypeOf(ChangeOf(i).from);
   down.support = support;
   down.kind = HalfStepKind::kDown;
   down.X_SF = Placement(i, support);
@@ -22,7 +30,9 @@ HalfStep StepSet::Down(int i, Side support) const {
 }
 
 HalfStep StepSet::Up(int i, Side support) const {
-  HalfStep up = prototype;
+  const auto [from, to] = ChangeOf(i);
+  HalfStep up = PrototypeOf(to);
+  if (from != to) up.standing_crouch = Nth(forms, from).crouch;
   up.support = Opposite(support);
   up.kind = HalfStepKind::kUp;
   up.X_SF = Placement(i, support).Inverse();

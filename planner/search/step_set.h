@@ -29,8 +29,31 @@ struct StepSet {
   /// Whether it is for ground with solids, which feet touch: then its swept volumes tell the feet
   /// from the rest.
   bool on_levels = false;
+  /// What differs between half-steps of other heights of the waist.
+  struct Form {
+    double crouch = 0.0;      ///< HalfStepShape::crouch [m]
+    double via_height = 0.0;  ///< [m]
+    friend bool operator==(const Form&, const Form&) = default;
+  };
+  /// The waist's heights, the first that of the prototype; empty: only that one.
+  std::vector<Form> forms = {};
+  /// Of an element, between which of `forms` it leads: its down half-step is of the first one, its
+  /// up half-step leads to the other one.
+  struct Change {
+    int from = 0;  ///< of forms
+    int to = 0;    ///< of forms
+    friend bool operator==(const Change&, const Change&) = default;
+  };
+  std::vector<Change> changes = {};  ///< by element where there are forms, else empty
 
   int size() const { return static_cast<int>(placements.size()); }  ///< number of elements
+  /// Of element i; of a set without forms {0, 0}.
+  Change ChangeOf(int i) const {
+    return changes.empty() ? Change{} : changes[static_cast<size_t>(i)];
+  }
+  int num_forms() const { return forms.empty() ? 1 : static_cast<int>(forms.size()); }  ///< ≥ 1
+  /// The prototype at a height of the waist.
+  HalfStep PrototypeOf(int form) const;
   /// X_SF of element i when `support` supports.
   Foothold Placement(int i, Side support) const;
   /// The half-step on `support` that lands element i.

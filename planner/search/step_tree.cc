@@ -28,9 +28,10 @@ StepTree::StepTree(const TreeTarget& target, const PoseCells& cells, StepGraph* 
       edges_(edges),
       buckets_(graph->workspace()) {}
 
-bool StepTree::Hits(const StepState& from, const Foothold& X_WF) const {
+bool StepTree::Hits(const StepState& from, int k, const Foothold& X_WF) const {
   if (!target_.state) return graph_.IsGoal(from, X_WF);
   return target_.state->support != from.support && target_.state->X_WS.height == X_WF.height &&
+         target_.state->form == graph_.After(from, k, X_WF).form &&
          StateDistance(X_WF.Planar(), target_.state->X_WS.Planar(), true) <= target_.near;
 }
 
@@ -72,9 +73,9 @@ StepTree::Edge StepTree::Try(int index, int k, const Foothold& X_WF) {
   --node.untried;
   if (!graph_.Bears(X_WF)) return Edge::kUseless;
   if (edges_ != nullptr) return TryInTime(index, k, X_WF);
-  const StepState from = node.state, after{X_WF, Opposite(from.support)};
+  const StepState from = node.state, after = graph_.After(from, k, X_WF);
   const double cost = node.cost + graph_.cost(k);
-  if (Hits(from, X_WF)) {
+  if (Hits(from, k, X_WF)) {
     if (cost >= target_.cost_limit) return Edge::kUseless;
     if (!graph_.DownIsFree(from, k)) return Edge::kBlocked;
     if (target_.state && !graph_.UpIsFree(from, k)) return Edge::kBlocked;
@@ -92,8 +93,8 @@ StepTree::Edge StepTree::Try(int index, int k, const Foothold& X_WF) {
 StepTree::Edge StepTree::TryInTime(int index, int k, const Foothold& X_WF) {
   const TimedState from = {Nth(nodes_, index).state, Nth(nodes_, index).edge.to.since,
                            Nth(nodes_, index).edge.to.rest};
-  const bool hits = Hits(from.state, X_WF);
-  const StepState after{X_WF, Opposite(from.state.support)};
+  const bool hits = Hits(from.state, k, X_WF);
+  const StepState after = graph_.After(from.state, k, X_WF);
   const double least =
       Nth(nodes_, index).cost + graph_.cost(k) + (hits ? 0.0 : LeastCostFrom(after));
   if (least >= target_.cost_limit) return Edge::kUseless;
@@ -141,9 +142,14 @@ StepTree::Growth StepTree::Add(const StepState& state, int parent, int k, double
                                const TimedEdge& edge) {
   if (!reached_.insert(KeyOf(state, edge)).second) return Growth::kTrapped;
   if (std::isinf(edge.to.rest.end)) reached_.insert(cells_.KeyOf(state));
-  const auto count = static_cast<size_t>(graph_.size());
+  std::vector<bool> tried(static_cast<size_t>(graph_.size()), false);
+  int untried = 0;
+  for (int of = 0; of < graph_.size(); ++of) {
+    tried[static_cast<size_t>(of)] = !graph_.Fits(state, of);
+    untried += graph_.Fits(state, of) ? 1 : 0;
+  }
   const int index = static_cast<int>(nodes_.size());
-  nodes_.push_back({state, parent, k, cost, graph_.size(), std::vector<bool>(count, false), edge});
+  nodes_.push_back({state, parent, k, cost, untried, std::move(tried), edge});
   buckets_.Insert(index, state);
   monitor_.CountNode();
   return LookForTarget(index);
@@ -160,7 +166,7 @@ StepTree::Growth StepTree::LookForTarget(int index) {
   if (!near) return Growth::kAdded;
   for (int k = 0; k < graph_.size(); ++k) {
     const Foothold X_WF = graph_.Landing(from, k);
-    if (Hits(from, X_WF) && Try(index, k, X_WF) == Edge::kArrived) return Growth::kArrived;
+    if (Hits(from, k, X_WF) && Try(index, k, X_WF) == Edge::kArrived) return Growth::kArrived;
   }
   return Growth::kAdded;
 }

@@ -71,7 +71,7 @@ class StepTree {
   };
   enum class Edge { kUseless, kBlocked, kAdded, kArrived };
 
-  bool Hits(const StepState& from, const Foothold& X_WF) const;
+  bool Hits(const StepState& from, int k, const Foothold& X_WF) const;
   double LeastCostFrom(const StepState& state) const;
   Edge Try(int index, int k, const Foothold& X_WF);
   Edge TryInTime(int index, int k, const Foothold& X_WF);

@@ -117,6 +117,16 @@ std::string SweptVolumeProvenance(const RobotModel& robot, const MotionModel& mo
   line_unless("rise_end", rise_end, 1.0);
   line_unless("crouch", crouch, 0.0);
   line_unless("via_along", set.prototype.via_along, 0.0);
+  for (const auto& [lower, via_height] : set.forms) {
+    line("form", Exactly(lower) + " " + Exactly(via_height));
+  }
+  if (!set.forms.empty()) {
+    std::string changes;
+    for (const auto& [from, to] : set.changes) {
+      changes += std::to_string(from) + " " + std::to_string(to) + "\n";
+    }
+    line("changes", Sha256(changes));
+  }
   if (set.on_levels) line("on_levels", "feet apart, with plates, in half the cell");
   line("elements", std::to_string(set.size()));
   line("placements", Sha256(placements));

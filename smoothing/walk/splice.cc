@@ -9,10 +9,10 @@
 namespace halfstep {
 namespace {
 
-// The shape of the half-steps that follow is that of those before.
+// The shape of the half-steps that follow, and the waist's height, is that of the last one.
 HalfStepSequence Following(const HalfStepSequence& sequence, const std::array<Foothold, 2>& feet,
                            const std::vector<Footstep>& footsteps) {
-  const HalfStep& like = sequence.half_steps.front().half_step;
+  const HalfStep& like = sequence.half_steps.back().half_step;
   return MakeSequence(feet, footsteps, like.via_lateral, like.shape, sequence.model);
 }
 

@@ -91,6 +91,17 @@ half_step: {duration_s: 2, via_height_m: 0.18, foot_delay: 0.15, crouch_m: 0.01}
   return run;
 }
 
+// Down under nothing, and up again.
+const MadeRun& Lower() {
+  static const MadeRun run(R"(robot: hrp2
+scene: none
+footsteps:
+  - {foot: right, x_m: 0.1, y_m: -0.105, via_height_m: 0.12, crouch_m: 0.08}
+  - {foot: left, x_m: 0.2, y_m: 0.105, crouch_m: 0.03}
+)");
+  return run;
+}
+
 // A walk at instants and on intervals.
 struct Moving {
   explicit Moving(const WalkRun& of)
@@ -121,7 +132,7 @@ std::vector<const TrajectoryFinding*> Missed(const TrajectoryCheck& check) {
 }
 
 TEST(CheckWalk, CertifiedWalksAreProved) {
-  for (const MadeRun* run : {&Box(), &Wren(), &Stairs()}) {
+  for (const MadeRun* run : {&Box(), &Wren(), &Stairs(), &Lower()}) {
     const TrajectoryCheck check = run->Check();
     EXPECT_TRUE(check.proved()) << (Missed(check).empty() ? "" : Missed(check)[0]->subject);
     EXPECT_LT(check.intervals, 2000);
@@ -203,7 +214,7 @@ class Rows {
 };
 
 TEST(CheckWalk, MotionIsThatOfTheTrajectory) {
-  for (const MadeRun* run : {&Box(), &Wren(), &Stairs()}) {
+  for (const MadeRun* run : {&Box(), &Wren(), &Stairs(), &Lower()}) {
     const Moving moving(run->walk);
     const Rows rows(*run);
     for (size_t i = 0; i < rows.size(); i += 7) {
@@ -245,7 +256,7 @@ TEST(CheckWalk, MarginsAtInstantsAreThoseOfTheTrajectory) {
       {verify::kZmpRobot, "zmp_robot_margin_m"},
       {verify::kTorque, "torque_margin_n_m"},
       {verify::kFriction, "friction_margin"}};
-  for (const MadeRun* run : {&Box(), &Wren(), &Stairs()}) {
+  for (const MadeRun* run : {&Box(), &Wren(), &Stairs(), &Lower()}) {
     const Moving moving(run->walk);
     verify::CertificateText certificate = run->walk.certificate;
     for (double& demanded : certificate.demanded) {
@@ -276,7 +287,7 @@ TEST(CheckWalk, MarginsAtInstantsAreThoseOfTheTrajectory) {
 
 TEST(CheckWalk, IntervalsHoldWhatIsWithin) {
   std::mt19937_64 random(3);
-  for (const MadeRun* run : {&Box(), &Wren(), &Stairs()}) {
+  for (const MadeRun* run : {&Box(), &Wren(), &Stairs(), &Lower()}) {
     const Moving moving(run->walk);
     const std::vector<double>& knots = moving.motion.knots();
     for (int i = 0; i < 60; ++i) {
@@ -346,6 +357,25 @@ TEST(CheckWalk, LimitsAreFound) {
     demanded = least - room;
     EXPECT_TRUE(check().proved()) << column;
   }
+}
+
+TEST(CheckWalk, TheWaistIsAsLowAsTheFootstepsSay) {
+  WalkRun walk = Lower().walk;
+  ASSERT_EQ(walk.tables.footsteps.size(), 4u);
+  EXPECT_EQ(walk.tables.footsteps[1].crouch, 0.0);
+  EXPECT_EQ(walk.tables.footsteps[2].crouch, 0.08);
+  EXPECT_TRUE(CheckRun(walk).proved());
+  const double end = Moving(walk).motion.end();
+  EXPECT_NEAR(Moving(walk).On(0.0, 0.0).numbers()[kWaistZ].over[0].Middle(), 0.0, 1e-12);
+  EXPECT_NEAR(Moving(walk).On(end, end).numbers()[kWaistZ].over[0].Middle(), -0.03, 1e-12);
+  // Legs that are asked to stretch, or to fold, as they cannot.
+  walk.tables.footsteps[2].crouch = 0.45;
+  EXPECT_FALSE(CheckRun(walk).proved());
+  walk.tables.footsteps[2].crouch = -0.08;
+  EXPECT_THROW(CheckRun(walk), InputError);
+  walk.tables.footsteps[2].crouch = 0.08;
+  walk.tables.footsteps[0].crouch = 0.02;
+  EXPECT_THROW(CheckRun(walk), InputError);
 }
 
 TEST(CheckWalk, NudgedWalksAreNotProved) {

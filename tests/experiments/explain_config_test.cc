@@ -88,6 +88,7 @@ TEST(ExplainConfig, DefaultsAndKeysAreThoseOfAResolvedConfig) {
                                           "planner.moving",
                                           "footsteps.N.rest_s",
                                           "footsteps.N.rest_on_one_foot_s",
+                                          "footsteps.N.crouch_m",
                                           "footsteps.N.z_m",
                                           "start.left.z_m",
                                           "start.right.z_m"};
@@ -99,6 +100,7 @@ TEST(ExplainConfig, DefaultsAndKeysAreThoseOfAResolvedConfig) {
   config.planner.free_by = "certificates";
   config.planner.moving = "everywhere";
   config.footsteps[0].rest = config.footsteps[0].rest_on_one_foot = 1.0;
+  config.footsteps[0].crouch = 0.02;
   config.half_step.rise_begin = 0.5;
   config.half_step.rise_end = 0.9;
   config.half_step.crouch = 0.01;

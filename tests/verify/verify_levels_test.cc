@@ -36,6 +36,20 @@ TEST(VerifyLevels, AWalkOntoAPlatformIsVerified) {
   EXPECT_THAT(outcome.out, HasSubstr("foothold 2"));
 }
 
+// Two steps back on the floor, the waist lower from the first one on.
+const TamperedWalk kLower = {
+    .config = "platform_15cm",
+    .overrides = {"scene=../scenes/platform_10cm.yaml",
+                  "footsteps=[{foot: right, x_m: -0.05, y_m: -0.105, via_height_m: 0.12, "
+                  "crouch_m: 0.08}, {foot: left, x_m: -0.1, y_m: 0.105, crouch_m: 0.03}]",
+                  "output.period_s=0.02"}};
+
+TEST(VerifyCrouch, AWalkThatChangesTheWaistsHeightIsVerified) {
+  const TamperedRun run(kLower);
+  const Outcome outcome = run.Verify();
+  EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+}
+
 size_t ColumnOf(const Table& table, const std::string& name) {
   const auto& header = table.front();
   return static_cast<size_t>(std::ranges::find(header, name) - header.begin());
@@ -50,6 +64,24 @@ std::function<void(TamperedRun&)> AddTo(const std::string& file, const std::stri
       cell = Formatted("%.17g", std::stod(cell) + by);
     });
   };
+}
+
+TEST(VerifyCrouch, OtherHeightsOfTheWaistAreRefused) {
+  for (const double by : {1e-3, -1e-3}) {
+    ExpectRefused(kLower, {"Crouch", AddTo("footsteps.csv", "crouch_m", 3, by),
+                           "footsteps.csv:4: not the footstep of config.yaml"});
+    ExpectRefused(kLower, {"CrouchAtTheStart", AddTo("footsteps.csv", "crouch_m", 2, by),
+                           "footsteps.csv:3: not the footstep of config.yaml"});
+  }
+  ExpectRefused(kLower, {"NoCrouches",
+                         [](TamperedRun& run) {
+                           TamperedRun::EditCsv(run.run() / "footsteps.csv", [](Table& table) {
+                             for (auto& row : table) row.pop_back();
+                           });
+                         },
+                         "footsteps.csv:4: not the footstep of config.yaml"});
+  ExpectRefused(kLower, {"Waist", AddTo("dichotomy/trajectory.csv", "waist_z_m", 100, 1e-4),
+                         "waist is off the walk of half_steps.csv"});
 }
 
 std::function<void(TamperedRun&)> InGround(const std::string& old, const std::string& by) {

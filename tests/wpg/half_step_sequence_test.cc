@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "tests/wpg/sequence_draw.h"
+#include "wpg/motion/half_step_tracks.h"
 #include "wpg/motion/walk_state.h"
 
 namespace halfstep {
@@ -15,6 +16,32 @@ namespace {
 WalkState StartInW(const PlacedHalfStep& p) { return Transformed(p.X_WS, p.half_step.Start()); }
 WalkState EndInW(const PlacedHalfStep& p) { return Transformed(p.X_WS, p.half_step.End()); }
 double Difference(const WalkState& a, const WalkState& b) { return (a - b).cwiseAbs().maxCoeff(); }
+
+// The waist comes to another height in up half-steps, and nowhere else.
+TEST(MakeSequence, TheWaistChangesItsHeightAsFootstepsSay) {
+  const auto at = [](Side side, double x, double height, std::optional<double> crouch) {
+    return Footstep{.side = side,
+                    .X_WF = {{x, side == Side::kLeft ? 0.1 : -0.1, 0.0}, height},
+                    .crouch = crouch};
+  };
+  const HalfStepSequence s =
+      MakeSequence(StandingFeet(),
+                   {at(Side::kRight, 0.1, 0.0, 0.15), at(Side::kLeft, 0.2, 0.0, 0.15),
+                    at(Side::kRight, 0.3, -0.05, 0.02), at(Side::kLeft, 0.4, -0.05, {})},
+                   0.22, {.crouch = 0.01}, std::make_shared<Lipm>(0.8));
+  const std::vector<double> ends = {-0.15, -0.15, -0.15, -0.15, -0.02, -0.07, -0.06, -0.06};
+  for (size_t i = 0; i < ends.size(); ++i) {
+    EXPECT_DOUBLE_EQ(EndInW(s.half_steps[i])[kWaistZ], ends[i]) << i;
+    const WalkState begin = StartInW(s.half_steps[i]);
+    EXPECT_DOUBLE_EQ(begin[kWaistZ], i == 0 ? -0.01 : ends[i - 1]) << i;
+    if (i > 0) EXPECT_LT(Difference(begin, EndInW(s.half_steps[i - 1])), 1e-14) << i;
+    const HalfStepTracks tracks(s.half_steps[i].half_step, *s.model, s.half_steps[i].X_WS);
+    EXPECT_EQ(tracks.waist_rises(), begin[kWaistZ] != EndInW(s.half_steps[i])[kWaistZ]) << i;
+  }
+  EXPECT_TRUE(ChangesCrouch(s));
+  EXPECT_FALSE(ChangesCrouch(MakeSequence(StandingFeet(), {at(Side::kRight, 0.1, -0.05, {})}, 0.22,
+                                          {.crouch = 0.01}, std::make_shared<Lipm>(0.8))));
+}
 
 TEST(MakeSequence, OneStepByHand) {
   const HalfStepSequence s =

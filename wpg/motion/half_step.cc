@@ -15,7 +15,7 @@ WalkState HalfStep::OnFloor() const {
   WalkState x = WalkState::Zero();
   x.segment<2>(kComX) = x.segment<2>(kZmpX) = 0.5 * X_SF.Planar().position();
   x[kWaistYaw] = 0.5 * X_SF.yaw;
-  x[kWaistZ] = std::min(0.0, X_SF.height) - shape.crouch;
+  x[kWaistZ] = std::min(0.0, X_SF.height) - crouch_on_floor();
   SetFoot(swing(), X_SF, &x);
   return x;
 }

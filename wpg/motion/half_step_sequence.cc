@@ -1,5 +1,6 @@
 #include "wpg/motion/half_step_sequence.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "wpg/check.h"
@@ -15,6 +16,7 @@ HalfStepSequence MakeSequence(const std::array<Foothold, 2>& start,
   HALFSTEP_CHECK(model != nullptr, "no model");
   HalfStepSequence sequence{.start = start, .half_steps = {}, .model = std::move(model)};
   std::array<Foothold, 2> feet = start;
+  double crouch = shape.crouch;
   for (const Footstep& footstep : footsteps) {
     const Side swing = footstep.side;
     const Foothold X_WS = Nth(feet, Index(Opposite(swing)));
@@ -26,13 +28,23 @@ HalfStepSequence MakeSequence(const std::array<Foothold, 2>& start,
                        .via_height = footstep.via_height,
                        .via_lateral = via_lateral,
                        .shape = shape};
+    half_step.shape.crouch = footstep.crouch.value_or(shape.crouch);
+    if (half_step.shape.crouch != crouch) half_step.standing_crouch = crouch;
     sequence.half_steps.push_back({half_step, X_WS, footstep.rest});
+    crouch = half_step.shape.crouch;
+    half_step.standing_crouch.reset();
     foot = footstep.X_WF;
     half_step.kind = HalfStepKind::kDown;
     half_step.X_SF = X_WS.Inverse() * foot;
     sequence.half_steps.push_back({half_step, X_WS, footstep.rest_on_one_foot});
   }
   return sequence;
+}
+
+bool ChangesCrouch(const HalfStepSequence& sequence) {
+  return std::ranges::any_of(sequence.half_steps, [](const PlacedHalfStep& placed) {
+    return placed.half_step.crouch_on_floor() != placed.half_step.shape.crouch;
+  });
 }
 
 HalfStepSequence Mirrored(const HalfStepSequence& sequence) {

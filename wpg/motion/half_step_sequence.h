@@ -2,6 +2,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "wpg/geometry/foothold.h"
@@ -23,6 +24,9 @@ struct Footstep {
   double rest = 0.0;
   /// How long it rests on one foot before the other lands here [s] ≥ 0.
   double rest_on_one_foot = 0.0;
+  /// HalfStepShape::crouch of the step [m]; none: that of the walk. The waist comes to it in the up
+  /// half-step, in which the foot leaves the floor.
+  std::optional<double> crouch = {};
 };
 
 /// A half-step placed in the world: X_WS is the pose of its support sole.
@@ -47,11 +51,14 @@ struct HalfStepSequence {
 };
 
 /// The sequence that takes the footsteps in their order from the soles `start`. `via_lateral` [m]
-/// and `shape` hold for all half-steps. Precondition: at least one footstep (std::logic_error).
+/// and `shape` hold for all half-steps, its crouch for those whose footstep has none, and while the
+/// robot stands at the start. Precondition: at least one footstep (std::logic_error).
 HalfStepSequence MakeSequence(const std::array<Foothold, 2>& start,
                               const std::vector<Footstep>& footsteps, double via_lateral,
                               const HalfStepShape& shape, std::shared_ptr<const MotionModel> model);
 
+/// Whether the waist comes to another height that is not for the ground's sake: Footstep::crouch.
+bool ChangesCrouch(const HalfStepSequence& sequence);
 /// The same plan seen in a mirror (xz plane of W).
 HalfStepSequence Mirrored(const HalfStepSequence& sequence);
 /// The same plan moved by X_VW, heights kept: frame W of the plan is placed in frame V.

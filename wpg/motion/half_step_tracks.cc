@@ -33,8 +33,9 @@ WalkState PlaceError(const HalfStep& half_step, const Foothold& X_WS) {
   const double local = std::max({Sum(half_step.X_SF), std::abs(via.x) + std::abs(via.y),
                                  std::abs(half_step.shape.support_point)});
   const double yaw = 2.0 * (std::abs(X_WS.yaw) + std::abs(half_step.X_SF.yaw));
-  const double height = 4.0 * (std::abs(X_WS.height) + std::abs(half_step.X_SF.height) +
-                               half_step.via_height + half_step.shape.crouch);
+  const double height =
+      4.0 * (std::abs(X_WS.height) + std::abs(half_step.X_SF.height) + half_step.via_height +
+             std::max(half_step.shape.crouch, half_step.crouch_on_floor()));
   const double place = 20.0 * (Sum(X_WS) + local) + yaw * local;
   WalkState error;
   for (const QuantityTraits& row : kQuantities) {
