@@ -15,29 +15,6 @@ namespace {
 // Intervals of rest in one cell that end by no more than this apart count as the same [s].
 constexpr double kSameEnd = 0.25;
 
-// A state whose outgoing elements wait in `order`, the most promising first. Not in time it is
-// reached at 0 and may be kept for good.
-struct Node {
-  TimedEdge edge;  // how it was reached
-  int parent = -1;
-  int k = -1;  // element that led here
-  double cost = 0.0;
-  std::vector<std::uint32_t> order;
-};
-
-// The next element of a node to ask about, or an edge that was found free and is dearer than it.
-struct Waiting {
-  double key = 0.0;    // cost so far + weight · guess
-  double guess = 0.0;  // among equals the one nearer to the goal
-  int node = 0;
-  int rank = 0;                                 // in its order
-  int found = -1;                               // which of the edges; −1: not asked about
-  bool operator<(const Waiting& other) const {  // the top of the queue is the largest
-    return std::tie(key, guess, node, rank, found) >
-           std::tie(other.key, other.guess, other.node, other.rank, other.found);
-  }
-};
-
 }  // namespace
 
 // The search with one weight.
@@ -78,6 +55,29 @@ class StepSearch::Weighted {
   }
 
  private:
+  // A state whose outgoing elements wait in `order`, the most promising first. Not in time it is
+  // reached at 0 and may be kept for good.
+  struct Node {
+    TimedEdge edge;  // how it was reached
+    int parent = -1;
+    int k = -1;  // element that led here
+    double cost = 0.0;
+    std::vector<std::uint32_t> order;
+  };
+
+  // The next element of a node to ask about, or an edge that was found free and is dearer than it.
+  struct Waiting {
+    double key = 0.0;    // cost so far + weight · guess
+    double guess = 0.0;  // among equals the one nearer to the goal
+    int node = 0;
+    int rank = 0;                                 // in its order
+    int found = -1;                               // which of the edges; −1: not asked about
+    bool operator<(const Waiting& other) const {  // the top of the queue is the largest
+      return std::tie(key, guess, node, rank, found) >
+             std::tie(other.key, other.guess, other.node, other.rank, other.found);
+    }
+  };
+
   struct Promise {
     double key, guess;
     bool wanted;

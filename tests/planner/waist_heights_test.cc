@@ -64,7 +64,7 @@ class Bands : public HalfStepQuery {
 
 PlanResult PlanOver(const std::string& planner, const StepSet& set, const HalfStepQuery& query) {
   PlanRequest request{.start = {Foothold::Level({0, 0.1, 0}), Foothold::Level({0, -0.1, 0})},
-                      .goal = {.X_WG = {2.6, 0, 0}, .radius = 0.15},
+                      .goal = {.X_WG = {2.6, 0, 0}, .radius = 0.15, .box = {}},
                       .set = set,
                       .query = query};
   request.workspace = {Eigen::Vector2d(-0.5, -0.6), Eigen::Vector2d(3.0, 0.6)};
@@ -97,7 +97,9 @@ TEST(WaistHeights, EveryPlannerChangesThemWhereItHasTo) {
     EXPECT_LT(low, std::ssize(plan.footsteps));
     EXPECT_GE(changes, 1);
     // What costs more is not done for nothing.
-    if (std::string(planner) == "best") EXPECT_LE(changes, 2);
+    if (std::string(planner) == "best") {
+      EXPECT_LE(changes, 2);
+    }
   }
 }
 
@@ -114,7 +116,7 @@ TEST(WaistHeights, ElementsOfAnotherHeightAreNotFree) {
   const StepSet set = TwoHeights();
   const Bands query(set);
   const PlanRequest request{.start = {Foothold::Level({0, 0.1, 0}), Foothold::Level({0, -0.1, 0})},
-                            .goal = {.X_WG = {2.6, 0, 0}, .radius = 0.15},
+                            .goal = {.X_WG = {2.6, 0, 0}, .radius = 0.15, .box = {}},
                             .set = set,
                             .query = query};
   StepGraph graph(request, AllElements(set));

@@ -34,7 +34,9 @@ TEST(MakeSequence, TheWaistChangesItsHeightAsFootstepsSay) {
     EXPECT_DOUBLE_EQ(EndInW(s.half_steps[i])[kWaistZ], ends[i]) << i;
     const WalkState begin = StartInW(s.half_steps[i]);
     EXPECT_DOUBLE_EQ(begin[kWaistZ], i == 0 ? -0.01 : ends[i - 1]) << i;
-    if (i > 0) EXPECT_LT(Difference(begin, EndInW(s.half_steps[i - 1])), 1e-14) << i;
+    if (i > 0) {
+      EXPECT_LT(Difference(begin, EndInW(s.half_steps[i - 1])), 1e-14) << i;
+    }
     const HalfStepTracks tracks(s.half_steps[i].half_step, *s.model, s.half_steps[i].X_WS);
     EXPECT_EQ(tracks.waist_rises(), begin[kWaistZ] != EndInW(s.half_steps[i])[kWaistZ]) << i;
   }
