@@ -243,7 +243,9 @@ class BestSearch {
     std::vector<double> weights = {weight};
     if (edges_ != nullptr) weights.push_back(1.0);
     return std::make_unique<StepSearch>(
-        starts_, std::move(to_go), StepSearchOptions{.cells = Cells()}, &graph_, &monitor_, edges_);
+        starts_, std::move(to_go),
+        StepSearchOptions{.weights = std::move(weights), .cells = Cells()}, &graph_, &monitor_,
+        edges_);
   }
 
   // A* near a plan, which tells how far it is to the goal around what stands in between.
