@@ -49,7 +49,7 @@ class WindowTest : public testing::Test {
 TEST_F(WindowTest, ThePartDoesWhatTheWalkDoesOnWhatIsProvedAndNothingElseChanges) {
   WalkDraw draw(1701);
   int compared = 0, needed = 0;
-  for (int i = 0; i < Draws(40); ++i) {
+  for (int i = 0; i < 40; ++i) {
     const HalfStepSequence sequence = draw.Sequence(8);
     const WalkProblem problem = ProblemOf(sequence, test_);
     HomotopyParameters at = draw.ExtremeParameters(sequence);
@@ -92,7 +92,7 @@ TEST_F(WindowTest, ThePartDoesWhatTheWalkDoesOnWhatIsProvedAndNothingElseChanges
       }
     }
   }
-  EXPECT_GT(compared, Draws(40) * 3);
+  EXPECT_GT(compared, 40 * 3);
   // Neighbours are cut off themselves, so what they do in the part is not what they do in the walk.
   EXPECT_GT(needed, 0);
 }
