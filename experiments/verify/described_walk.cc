@@ -35,7 +35,7 @@ std::vector<DescribedWalk::Piece> DescribedWalk::PiecesOf(const RobotModel& robo
     moves.push_back(rows[i].FormOf(planned.half_steps[i].half_step).footstep);
   }
   WalkPlan plan = Moved(planned, moves);
-  const double crouch = plan.half_steps.front().half_step.crouch;
+  const double crouch = StartCrouch(planned);
   std::vector<Piece> pieces;
   std::array<double, 2> heights = {planned.start[0].height, planned.start[1].height};
   for (size_t i = 0; i < rows.size(); ++i) {
