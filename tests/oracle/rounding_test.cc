@@ -60,6 +60,22 @@ TEST(RoundingTest, OfLegs) {
   }
 }
 
+// The same robots' forces. A thousandth of the bounds would be exceeded.
+TEST(RoundingTest, OfDynamics) {
+  for (const std::string& robot : kShippedRobots) {
+    for (const double scale : {1.0, 0.035, 2.7}) {
+      SCOPED_TRACE(robot + " × " + std::to_string(scale));
+      RoundingTally tally, too_small;
+      DrawDynamics(ShippedRobot(robot), scale, 200, 9, &tally);
+      Expect(tally, {});
+      EXPECT_GT(tally.parts["zmp"].undecided, 0);
+      EXPECT_LT(tally.parts["zmp"].undecided, tally.parts["zmp"].draws);
+      DrawDynamics(ShippedRobot(robot), scale, 200, 9, &too_small, 1e-3);
+      for (const auto& [name, part] : too_small.parts) EXPECT_GT(part.largest, 1.0) << name;
+    }
+  }
+}
+
 TEST(RoundingTest, OfSupports) {
   RoundingTally tally;
   DrawSupports(5000, 6, &tally);
