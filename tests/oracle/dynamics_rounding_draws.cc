@@ -17,7 +17,7 @@
 namespace halfstep::oracle {
 namespace {
 
-double Difference(Real exact, double computed) {
+double Apart(Real exact, double computed) {
   return static_cast<double>(Absolute(exact - Real(computed)));
 }
 
@@ -42,8 +42,7 @@ class DrawnDynamics {
     for (size_t s = 0; s < 2; ++s) {
       const Side side = s == 0 ? Side::kLeft : Side::kRight;
       for (int j = 0; j < 6; ++j) {
-        Add("acceleration",
-            Difference(Nth(exact_.accelerations[s], j), at_m_.accelerations(side)[j]),
+        Add("acceleration", Apart(Nth(exact_.accelerations[s], j), at_m_.accelerations(side)[j]),
             drift_.rounding.accelerations[s][j]);
       }
     }
@@ -100,7 +99,7 @@ class DrawnDynamics {
       const Real3 moment = right ? on_right[1] : exact_.moment - on_right[1];
       for (size_t j = 0; j < 6; ++j) {
         const Eigen::Index i = static_cast<Eigen::Index>(j);
-        Add(part, Difference(exact_.Torque(s, j, force, moment), torques[i]), bounds[i]);
+        Add(part, Apart(exact_.Torque(s, j, force, moment), torques[i]), bounds[i]);
       }
     }
   }

@@ -7,7 +7,7 @@
 namespace halfstep::oracle {
 namespace {
 
-constexpr Real3 kUp = {0, 0, 1};
+constexpr Real3 kUpward = {0, 0, 1};
 
 // How a rigid body moves, with one of its points.
 struct Moving {
@@ -34,13 +34,13 @@ std::array<Real3, 2> Asked(const BodyMass& mass, const Real33& R, const Real3& c
                            const Moving& body) {
   const Moving of_com = body.At(com);
   const Real33 I = R * FromMatrix(mass.inertia) * Transposed(R);
-  const Real3 force = Real(mass.mass) * (of_com.a + Real(kGravity) * kUp);
+  const Real3 force = Real(mass.mass) * (of_com.a + Real(kGravity) * kUpward);
   return {force, Cross(com, force) + I * body.turn1 + Cross(body.turn, I * body.turn)};
 }
 
 // How far a point is from a sole's rectangle; negative inside.
-Real FromSole(const Real3& sole, Real yaw, const Eigen::Vector2d& size,
-              const std::array<Real, 2>& p) {
+Real BeyondSole(const Real3& sole, Real yaw, const Eigen::Vector2d& size,
+                const std::array<Real, 2>& p) {
   const Real c = Cos(yaw), s = Sin(yaw), x = p[0] - sole[0], y = p[1] - sole[1];
   const Real u = Absolute(c * x + s * y) - Real(size.x()) / 2;
   const Real v = Absolute(c * y - s * x) - Real(size.y()) / 2;
@@ -60,11 +60,11 @@ ExactDynamics::ExactDynamics(const RobotModel& robot, const std::array<ExactLeg,
   pole = Real3{value[kComX], value[kComY], 0} + back;
   Moving waist;
   waist.p = {0, 0, Real(robot.waist_height) + value[kWaistZ]};
-  waist.turn = rate * kUp;
-  waist.turn1 = rate1 * kUp;
-  waist.v = Real3{first[kComX], first[kComY], first[kWaistZ]} + rate * Cross(kUp, back);
-  waist.a = Real3{second[kComX], second[kComY], second[kWaistZ]} + rate1 * Cross(kUp, back) +
-            rate * rate * Cross(kUp, Cross(kUp, back));
+  waist.turn = rate * kUpward;
+  waist.turn1 = rate1 * kUpward;
+  waist.v = Real3{first[kComX], first[kComY], first[kWaistZ]} + rate * Cross(kUpward, back);
+  waist.a = Real3{second[kComX], second[kComY], second[kWaistZ]} + rate1 * Cross(kUpward, back) +
+            rate * rate * Cross(kUpward, Cross(kUpward, back));
   const auto add = [](const std::array<Real3, 2>& asked, Real3* to_force, Real3* to_moment) {
     *to_force = *to_force + asked[0];
     *to_moment = *to_moment + asked[1];
@@ -95,7 +95,7 @@ ExactDynamics::ExactDynamics(const RobotModel& robot, const std::array<ExactLeg,
       return links;
     };
     const Moving still = follow({})[5].At(sole);
-    const Real3 turn1 = second[f + 3] * kUp - still.turn1;
+    const Real3 turn1 = second[f + 3] * kUpward - still.turn1;
     const Real3 a = Real3{second[f], second[f + 1], second[f + 2]} - still.a;
     std::array<Real6, 6> J;
     for (size_t j = 0; j < 6; ++j) {
@@ -144,7 +144,7 @@ std::array<Real3, 2> OnRightFoot(const ExactDynamics& dynamics, const ClosedForm
   for (const Side side : {Side::kLeft, Side::kRight}) {
     const size_t s = static_cast<size_t>(Index(side)), f = static_cast<size_t>(FootIndex(side));
     soles[s] = {x[f], x[f + 1], x[f + 2]};
-    const Real d = FromSole(soles[s], x[f + 3], sole_size, dynamics.Zmp(soles[s][2]));
+    const Real d = BeyondSole(soles[s], x[f + 3], sole_size, dynamics.Zmp(soles[s][2]));
     distances[s] = d > 0 ? d : Real(0);
   }
   const Real sum = distances[0] + distances[1];
@@ -155,7 +155,7 @@ std::array<Real3, 2> OnRightFoot(const ExactDynamics& dynamics, const ClosedForm
   const Real3 factor =
       share * (1 - share) *
       (f[2] * Real3{between[0], between[1], 0} - between[2] * Real3{f[0], f[1], 0});
-  return {share * f, share * dynamics.moment + Cross(factor, kUp)};
+  return {share * f, share * dynamics.moment + Cross(factor, kUpward)};
 }
 
 Real NeededFriction(const ExactDynamics& dynamics, const ClosedFormWalk::Quantities& x, Side side,

@@ -12,16 +12,14 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kU = kRoundoff;
-
 // |fl(ab) − xy| where a is off from x by δa, b from y by δb, but for the product's own rounding.
 double Product(double a, double off_a, double b, double off_b) {
   return off_a * b + (a + off_a) * off_b;
 }
 
 // The sizes of the halves of a twist and of an acceleration.
-struct Sizes {
-  explicit Sizes(const RobotDynamics::Body& body)
+struct BodySizes {
+  explicit BodySizes(const RobotDynamics::Body& body)
       : spin(body.velocity.head<3>().norm()),
         velocity(body.velocity.tail<3>().norm()),
         spin1(body.acceleration.head<3>().norm()),
@@ -31,21 +29,21 @@ struct Sizes {
 
 // I a + v ×* I v as ForceOf computes it: products of at most six factors and sums of at most nine.
 void AddArithmetic(const RobotDynamics::Body& body, BodyRounding* off) {
-  const Sizes at(body);
+  const BodySizes at(body);
   const SpatialInertia& inertia = body.inertia;
   const double arm = inertia.com.norm(), norm = inertia.about_com.norm();
   const double speed = at.velocity + at.spin * arm;
   const double force = inertia.mass * (at.acceleration + at.spin1 * arm + at.spin * speed);
-  off->force = 64.0 * kU * force;
+  off->force = 64.0 * kRoundoff * force;
   off->moment =
-      64.0 * kU *
+      64.0 * kRoundoff *
       (arm * force + inertia.mass * at.velocity * speed + norm * (at.spin1 + at.spin * at.spin));
 }
 
 BodyRounding OfWaist(const RobotModel& robot, const IntervalMotion& motion,
                      const RobotDynamics& at_m) {
   const WalkJet &jet = motion.jet, &off = motion.off;
-  const Sizes at(at_m.waist());
+  const BodySizes at(at_m.waist());
   const double height = std::abs(motion.posture.X_WB.translation().z());
   const double speed = motion.posture.waist_velocity.norm(),
                speed_off = motion.rounding.waist_speed;
@@ -56,15 +54,15 @@ BodyRounding OfWaist(const RobotModel& robot, const IntervalMotion& motion,
                      .spin = off.first[kWaistYaw],
                      .spin1 = off.second[kWaistYaw]};
   const double place = Product(rate, waist.spin, height, waist.place);
-  waist.velocity = speed_off + place + 16.0 * kU * (speed + rate * height);
+  waist.velocity = speed_off + place + 16.0 * kRoundoff * (speed + rate * height);
   const double turning = rate1 + rate * rate;
   const double of_origin = off.second[kComX] + off.second[kComY] + off.second[kWaistZ] +
                            arm * (waist.spin1 + Product(rate, waist.spin, rate, waist.spin) +
-                                  (waist.turn + 8.0 * kU) * (turning + waist.spin1));
+                                  (waist.turn + 8.0 * kRoundoff) * (turning + waist.spin1));
   waist.acceleration =
       of_origin + Product(rate1, waist.spin1, height, waist.place) +
       Product(rate, waist.spin, speed, speed_off) +
-      32.0 * kU * (at.acceleration + arm * turning + rate1 * height + rate * speed);
+      32.0 * kRoundoff * (at.acceleration + arm * turning + rate1 * height + rate * speed);
   return waist;
 }
 
@@ -74,27 +72,27 @@ void FollowLeg(Side side, const IntervalMotion& motion, const RobotDynamics& at_
                std::array<BodyRounding, 6>* links) {
   const LegRounding& leg = Nth(motion.rounding.legs, Index(side));
   const Vector6d& speeds = Nth(motion.posture.speeds, Index(side));
-  const double turn = LegTurnRounding(motion, side), place = leg.points + 8.0 * kU * far;
+  const double turn = LegTurnRounding(motion, side), place = leg.points + 8.0 * kRoundoff * far;
   const double lever = place + far * turn;  // of a point × an axis
   const RobotDynamics::Body* parent = &at_m.waist();
   BodyRounding link = waist;
   double added = 0.0;  // what q̈ adds, all joints together
   for (size_t j = 0; j < 6; ++j) {
     const Eigen::Index i = static_cast<Eigen::Index>(j);
-    const Sizes at(*parent);
+    const BodySizes at(*parent);
     const double q1 = std::abs(speeds[i]), q2 = std::abs(at_m.accelerations(side)[i]);
     const double off1 = leg.speeds[i], off2 = accelerations_off[i];
     // Of the joint's twist q̇ S and of q̈ S.
     const double w = Product(q1, off1, 1.0, turn), v = Product(q1, off1, far, lever);
     added += q2 * (1.0 + far);
     link.spin1 += Product(q2, off2, 1.0, turn) + Product(at.spin, link.spin, q1, w) +
-                  64.0 * kU * (added + at.spin1 + at.spin * q1);
+                  64.0 * kRoundoff * (added + at.spin1 + at.spin * q1);
     link.acceleration +=
         Product(q2, off2, far, lever) + Product(at.spin, link.spin, far * q1, v) +
         Product(at.velocity, link.velocity, q1, w) +
-        64.0 * kU * (added + at.acceleration + at.spin * far * q1 + at.velocity * q1);
-    link.spin += w + 16.0 * kU * (at.spin + q1);
-    link.velocity += v + 16.0 * kU * (at.velocity + far * q1);
+        64.0 * kRoundoff * (added + at.acceleration + at.spin * far * q1 + at.velocity * q1);
+    link.spin += w + 16.0 * kRoundoff * (at.spin + q1);
+    link.velocity += v + 16.0 * kRoundoff * (at.velocity + far * q1);
     link.turn = turn;
     link.place = place;
     parent = &at_m.leg(side)[j];
@@ -111,13 +109,13 @@ bool IsFinite(const BodyRounding& off) {
 }  // namespace
 
 PointRounding BodyRounding::Of(const RobotDynamics::Body& body, const Vector3d& point) const {
-  const Sizes at(body);
+  const BodySizes at(body);
   const double arm = point.norm(), speed = at.velocity + at.spin * arm;
   PointRounding off{.place = place};
-  off.speed = velocity + Product(at.spin, spin, arm, place) + 16.0 * kU * speed;
+  off.speed = velocity + Product(at.spin, spin, arm, place) + 16.0 * kRoundoff * speed;
   off.acceleration = acceleration + Product(at.spin1, spin1, arm, place) +
                      Product(at.spin, spin, speed, off.speed) +
-                     32.0 * kU * (at.acceleration + at.spin1 * arm + at.spin * speed);
+                     32.0 * kRoundoff * (at.acceleration + at.spin1 * arm + at.spin * speed);
   return off;
 }
 
@@ -132,15 +130,15 @@ double InertialMomentChange(const RobotDynamics::Body& body, double turned, doub
 
 double PlaceOfZmpRounding(const RobotDynamics& at_m, const Vector3d& zmp) {
   const Vector3d& O = at_m.O();
-  return 64.0 * kU * (O.norm() + zmp.norm() + std::abs(zmp.z()) * at_m.Tilt().norm());
+  return 64.0 * kRoundoff * (O.norm() + zmp.norm() + std::abs(zmp.z()) * at_m.Tilt().norm());
 }
 
 double WaistTurnRounding(const IntervalMotion& motion) {
-  return motion.off.value[kWaistYaw] + 8.0 * kU;
+  return motion.off.value[kWaistYaw] + 8.0 * kRoundoff;
 }
 
 double LegTurnRounding(const IntervalMotion& motion, Side side) {
-  return Nth(motion.rounding.legs, Index(side)).turn + WaistTurnRounding(motion) + 16.0 * kU;
+  return Nth(motion.rounding.legs, Index(side)).turn + WaistTurnRounding(motion) + 16.0 * kRoundoff;
 }
 
 DynamicsRounding DynamicsRounding::At(const RobotModel& robot, const IntervalMotion& motion,

@@ -32,7 +32,8 @@ struct BodyRounding {
 
 /// The same of a moment [N m] and a force [N].
 struct WrenchRounding {
-  double moment = 0.0, force = 0.0;
+  double moment = 0.0;  ///< [N m]
+  double force = 0.0;   ///< [N]
 };
 
 /// How far rounding may carry RobotDynamics at the midpoint of an interval: a running error bound

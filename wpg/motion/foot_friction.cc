@@ -13,7 +13,7 @@ using Eigen::Vector2d;
 constexpr double kNone = std::numeric_limits<double>::infinity();
 constexpr double kNoEdge = 1e-9;     // [m] shorter edges have no direction
 constexpr double kAlongEdge = 1e-8;  // [m] by which points p ± ρu near an edge along u come nearer
-constexpr double kMore = 1.0 + 256.0 * kRoundoff;  // for the arithmetic of what is needed
+constexpr double kArithmetic = 1.0 + 256.0 * kRoundoff;  // for the arithmetic of what is needed
 
 // About the vertical axis, of a force in the plane at the end of an arm.
 double YawMoment(const Vector2d& arm, const Vector2d& force) {
@@ -142,7 +142,7 @@ double FootFriction::Drift(const RobotDrift& robot, const ZmpDrift& zmp, double 
   const double pull = pull_.norm() + robot.ForceDrift();
   const double turn =
       std::abs(turn_) + TurnRounding() + robot.YawMomentDrift(below) + zmp.Most() * pull;
-  return (pull + turn / reach) / zmp.least_push * kMore - needed();
+  return (pull + turn / reach) / zmp.least_push * kArithmetic - needed();
 }
 
 double FootFriction::Drift(const ContactRate& rate, double soles_off) const {
@@ -189,7 +189,7 @@ double FootFriction::Drift(const ContactRate& rate, double soles_off) const {
       }
     }
   });
-  return most * kMore - needed();
+  return most * kArithmetic - needed();
 }
 
 }  // namespace halfstep
