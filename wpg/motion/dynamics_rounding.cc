@@ -56,9 +56,10 @@ BodyRounding OfWaist(const RobotModel& robot, const IntervalMotion& motion,
   const double place = Product(rate, waist.spin, height, waist.place);
   waist.velocity = speed_off + place + 16.0 * kRoundoff * (speed + rate * height);
   const double turning = rate1 + rate * rate;
-  const double of_origin = off.second[kComX] + off.second[kComY] + off.second[kWaistZ] +
-                           arm * (waist.spin1 + Product(rate, waist.spin, rate, waist.spin) +
-                                  (waist.turn + 8.0 * kRoundoff) * (turning + waist.spin1));
+  const double turning_off = waist.spin1 + Product(rate, waist.spin, rate, waist.spin);
+  const double of_origin =
+      off.second[kComX] + off.second[kComY] + off.second[kWaistZ] +
+      arm * (turning_off + (waist.turn + 8.0 * kRoundoff) * (turning + turning_off));
   waist.acceleration =
       of_origin + Product(rate1, waist.spin1, height, waist.place) +
       Product(rate, waist.spin, speed, speed_off) +
