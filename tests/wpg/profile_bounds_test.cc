@@ -156,7 +156,7 @@ TEST(ProfileBounds, ThirdsOfAnIntervalThatEndsAtAKnotAreNotThoseBeyond) {
   const auto farthest = [&](double to, double time) {
     WalkThirds thirds;
     up.AddThirdRanges(knot - 1e-4, to, time, &thirds);
-    return thirds.of(kRightX).most();
+    return thirds.of(kRightY).most();
   };
   // What a time that is off by 1e-15 s does to the second derivative is there all the same.
   for (const double to : {knot, std::nextafter(knot, 1.0), knot + 5e-16}) {
