@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "smoothing/margins/family_class.h"
+#include "smoothing/margins/rounding.h"
 #include "smoothing/margins/tube_levers.h"
 #include "smoothing/walk/walk_rounding.h"
 #include "wpg/nth.h"

@@ -3,6 +3,7 @@
 
 #include "smoothing/margins/family_class.h"
 #include "smoothing/margins/foot_solids.h"
+#include "smoothing/margins/rounding.h"
 #include "wpg/elementary.h"
 
 namespace halfstep {

@@ -78,22 +78,25 @@ class FrictionMargin final : public SupportFamily {
   void AddBounds(const MarginInterval& interval, TightestStatement* tightest) const override {
     Instant& mid = interval.mid;
     if (mid.demanded(family()) == kNotDemanded) {
-      tightest->Add(Of(kUnlimited, mid.step_in_air()), place_.rounding.friction);
+      tightest->Add(Of(kUnlimited, mid.step_in_air()), 0.0);
       return;
     }
     const Margin margin = Least(&mid, kUnlimited);
     double change = 0.0;
     if (margin.value >= mid.demanded(family())) {
       const auto friction = FrictionAt(&mid);
-      const double spare = margin.value - mid.demanded(family()) - place_.rounding.friction;
+      const double spare = margin.value - mid.demanded(family());
       const double up = friction->height() - mid.heights().middle();
       const ZmpDrift& zmp = interval.zmp_drift();
-      change = friction->Drift(interval.drift(), up == 0.0 ? zmp : zmp.Raised(up));
+      const double inside = friction->inside();
+      change = friction->Drift(interval.drift(), up == 0.0 ? zmp : zmp.Raised(up),
+                               interval.SolesOff(inside, zmp));
       const ContactRate* rate = change <= spare ? nullptr : interval.contact_rate();
       if (rate != nullptr) {
-        change = std::min(change, friction->Drift(up == 0.0 ? *rate : rate->Raised(up)));
+        const double off =
+            interval.SolesOff(inside, ZmpDrift::At(*rate, mid.dynamics()->contact()[5]));
+        change = std::min(change, friction->Drift(up == 0.0 ? *rate : rate->Raised(up), off));
       }
-      change += place_.rounding.friction;
     }
     tightest->Add(margin, change);
   }

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "smoothing/margins/family_class.h"
+#include "smoothing/margins/rounding.h"
 #include "wpg/nth.h"
 
 namespace halfstep {

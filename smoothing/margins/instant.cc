@@ -1,7 +1,9 @@
 #include "smoothing/margins/instant.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "smoothing/margins/rounding.h"
 #include "wpg/robot/gravity.h"
 
 namespace halfstep {
@@ -66,9 +68,28 @@ StandingHeights Instant::heights() const {
   return {jet_.value, Opposite(swing())};
 }
 
-WalkThirds MarginInterval::Thirds() const {
-  const double middle = mid.t(), h = motion.half_width;
-  return mid.walk().ThirdRanges(middle - h, middle + h);
+const WalkThirds& MarginInterval::Thirds() const {
+  if (!thirds_) {
+    const double middle = mid.t(), h = motion.half_width;
+    thirds_ = mid.walk().ThirdRanges(middle - h, middle + h);
+  }
+  return *thirds_;
+}
+
+double MarginInterval::SolesOff(double inside, const ZmpDrift& zmp) const {
+  if (!(zmp.least_push > 0.0)) return kUnlimited;
+  const WalkState &x = motion.jet.value, &off = motion.off.value;
+  const StandingHeights heights = mid.heights();
+  double height = 0.0;
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    if (mid.step_in_air() >= 0 && mid.swing() == side) continue;
+    const int z = FootIndex(side) + 2;
+    height = std::max(height, std::abs(x[z] - heights.of(side)) + off[z]);
+  }
+  const double pull = mid.dynamics()->contact().segment<2>(3).norm() +
+                      zmp.half_width * zmp.force_rate.most() + zmp.force_rest;
+  return SupportRounding(x, off, mid.robot().sole_size, inside) +
+         height * (1.0 + pull / zmp.least_push);
 }
 
 double MarginInterval::LeastSole(Side side) const {

@@ -104,11 +104,17 @@ class MarginInterval {
   /// too long to say. It costs several times as much as the drifts, and says more. Precondition: as
   /// zmp_drift().
   const ContactRate* contact_rate() const;
+  /// How far rounding may carry the soles that stand from where they are computed, as the line of
+  /// the robot's ZMPs sees them: corners, for a point that is `inside` of them by so much, and
+  /// heights [m]. `zmp` bounds what the floor gives; +∞ where that has no bound. Precondition: as
+  /// zmp_drift().
+  double SolesOff(double inside, const ZmpDrift& zmp) const;
 
  private:
-  WalkThirds Thirds() const;
+  const WalkThirds& Thirds() const;
 
   // Made when they are first asked for.
+  mutable std::optional<WalkThirds> thirds_;
   mutable std::optional<RobotDrift> drift_;
   mutable std::optional<ZmpDrift> zmp_drift_;
   mutable std::optional<std::optional<ContactRate>> contact_rate_;

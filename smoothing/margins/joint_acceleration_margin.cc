@@ -7,7 +7,6 @@
 
 #include "smoothing/margins/family_class.h"
 #include "smoothing/margins/joint_family.h"
-#include "wpg/motion/acceleration_rounding.h"
 #include "wpg/motion/dynamics_slope.h"
 #include "wpg/nth.h"
 #include "wpg/robot/acceleration_limits.h"
@@ -106,18 +105,15 @@ class JointAccelerationMargin final : public JointSizeFamily<JointAccelerationMa
       tightest->Add(least, 0.0);
       return;
     }
-    std::array<Vector6d, 2> off;
-    for (const Side side : {Side::kLeft, Side::kRight}) {
-      Nth(off, Index(side)) = AccelerationRounding(interval.motion, *mid.motion(), side, kGravity);
-    }
+    const RobotDrift& drift = interval.drift();
     ForEachJoint([&](size_t s, int j, const LegJoint& joint, int subject) {
       const double here = std::abs((*accelerations)[s][j]);
-      const double drift = Nth(interval.drift().legs[s].joints, j).acceleration_drift;
+      const double change = Nth(drift.legs[s].joints, j).acceleration_drift;
+      const double off = drift.rounding.accelerations[s][j];
       // |q̈| grows by no more than q̈ drifts, and to no more than it can be.
       const double rise = interval.motion.joints[s].acceleration[j] - here;
-      tightest->Add(
-          Of(Limit(mid, joint) - here, subject),
-          std::max(0.0, std::min(drift + off[s][j] + place().rounding.acceleration, rise)));
+      tightest->Add(Of(Limit(mid, joint) - here, subject),
+                    std::max(0.0, std::min(change + off, rise)));
     });
   }
 

@@ -11,7 +11,6 @@
 #include "smoothing/margins/body_clearances.h"
 #include "smoothing/margins/body_heights.h"
 #include "smoothing/margins/foot_solids.h"
-#include "smoothing/margins/rounding.h"
 #include "smoothing/margins/work.h"
 #include "wpg/geometry/foothold.h"
 #include "wpg/geometry/pose2.h"
@@ -32,8 +31,7 @@ struct MarginPlace {
         heights(robot, scene.ground->Floor()),
         areas(scene, robot.sole_outline),
         solids(robot, scene),
-        levels(*scene.ground),
-        rounding(robot) {}
+        levels(*scene.ground) {}
   MarginPlace(const MarginPlace&) = delete;
   MarginPlace& operator=(const MarginPlace&) = delete;
 
@@ -45,7 +43,6 @@ struct MarginPlace {
   NoStepAreas areas;          ///< of the scene, for the robot's soles
   FootSolids solids;          ///< of the scene's ground, for the robot's feet
   LevelBorders levels;        ///< of the scene's ground
-  Rounding rounding;          ///< of the robot's walks
 };
 
 /// What families remember from one instant to the next, and the work that was done. Use

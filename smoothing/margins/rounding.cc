@@ -3,24 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "wpg/robot/gravity.h"
-#include "wpg/robot/reference_leg.h"
-#include "wpg/robot/robot_measures.h"
 #include "wpg/rounded.h"
 
 namespace halfstep {
-namespace {
-
-constexpr double kOfWeight = 2.5e-9;  // of m·g·ℓ: 1e-6 N m for HRP-2
-
-}  // namespace
-
-Rounding::Rounding(const RobotModel& robot)
-    : zmp(1e-9 * LegLengthOf(robot) / kLegOfHrp2),
-      torque(kOfWeight * robot.mass * kGravity * LegLengthOf(robot)),
-      friction(1e-9),
-      acceleration(1e-6 * kLegOfHrp2 / LegLengthOf(robot)) {}
-
 double SupportRounding(const WalkState& x, const WalkState& off, const Eigen::Vector2d& sole_size,
                        double margin) {
   constexpr double kLeftOut = 1e-9;  // [m] edges of SupportPolygon::Margin

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "smoothing/margins/margin_statements.h"
+#include "smoothing/margins/rounding.h"
 #include "wpg/elementary.h"
 
 namespace halfstep {

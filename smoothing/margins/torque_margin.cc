@@ -118,12 +118,11 @@ class TorqueMargin final : public JointSizeFamily<TorqueMargin> {
  protected:
   void AddBounds(const MarginInterval& interval, TightestStatement* tightest) const override {
     Instant& mid = interval.mid;
-    const double rounding = place().rounding.torque;
     const bool demanded = mid.demanded(family()) != kNotDemanded;
     const auto loads = demanded ? LoadsAt(&mid) : std::nullopt;
     if (!loads) {
       for (int i = 0; i < count(); ++i) {
-        tightest->Add(Of(demanded ? -kUnlimited : kUnlimited, i), rounding);
+        tightest->Add(Of(demanded ? -kUnlimited : kUnlimited, i), 0.0);
       }
       return;
     }
@@ -135,11 +134,11 @@ class TorqueMargin final : public JointSizeFamily<TorqueMargin> {
     }
     const bool both = mid.step_in_air() < 0;
     const TorqueDrift drift(interval.motion, interval.drift(), *mid.dynamics(), *loads,
-                            both ? ZmpMoved(interval) : 0.0, kGravity);
+                            both ? ZmpMoved(interval) : 0.0, kGravity,
+                            both ? interval.SolesOff(kUnlimited, interval.zmp_drift()) : 0.0);
     const ByLegs drifts = {drift.Of(Side::kLeft), drift.Of(Side::kRight)};
     ForEachJoint([&](size_t s, int j, const LegJoint& joint, int subject) {
-      tightest->Add(Of(Limit(mid, joint) - std::abs(torques[s][j]), subject),
-                    drifts[s][j] + rounding);
+      tightest->Add(Of(Limit(mid, joint) - std::abs(torques[s][j]), subject), drifts[s][j]);
     });
   }
 };

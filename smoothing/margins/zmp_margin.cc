@@ -1,4 +1,5 @@
 #include "smoothing/margins/family_class.h"
+#include "smoothing/margins/rounding.h"
 #include "smoothing/margins/support_edges.h"
 #include "smoothing/margins/support_family.h"
 #include "wpg/geometry/support_polygon.h"

@@ -127,15 +127,17 @@ class ZmpRobotMargin final : public SupportFamily {
     const double margin = balance->Margin();
     double least = margin;
     if (margin >= mid.demanded(family())) {
-      least = balance->LeastOver(interval.zmp_drift());
-      const bool decided = least - mid.place().rounding.zmp >= mid.demanded(family());
+      const auto least_over = [&](const ZmpDrift& drift) {
+        return balance->LeastOver(drift) - interval.SolesOff(margin, drift);
+      };
+      least = least_over(interval.zmp_drift());
+      const bool decided = least >= mid.demanded(family());
       const ContactRate* rate = decided ? nullptr : interval.contact_rate();
       if (rate != nullptr) {
-        const auto by_rates = ZmpDrift::At(*rate, mid.dynamics()->contact()[5]);
-        least = std::max(least, balance->LeastOver(by_rates));
+        least = std::max(least, least_over(ZmpDrift::At(*rate, mid.dynamics()->contact()[5])));
       }
     }
-    tightest->Add(Of(margin, step), margin - least + mid.place().rounding.zmp);
+    tightest->Add(Of(margin, step), margin - least);
   }
 };
 

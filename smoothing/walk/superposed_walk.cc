@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "smoothing/walk/footstep_families.h"
+#include "smoothing/walk/walk_rounding.h"
 #include "wpg/check.h"
 
 namespace halfstep {
@@ -104,10 +105,12 @@ WalkState SuperposedWalk::SecondBounds(double begin, double end) const {
 
 WalkThirds SuperposedWalk::ThirdRanges(double begin, double end) const {
   WalkThirds thirds;
-  const int first = FirstActive(Locate(begin)), last = LastActive(Locate(end));
+  const double time = LocalTimeRounding(*this, Locate(end));
+  const int first = FirstActive(Locate(begin - 2.0 * time));
+  const int last = LastActive(Locate(end + 2.0 * time));
   for (int i = first; i <= last; ++i) {
     const Piece& p = piece(i);
-    p.tracks.AddThirdRanges(begin - p.start, end - p.start, &thirds);
+    p.tracks.AddThirdRanges(begin - p.start, end - p.start, time, &thirds);
   }
   return thirds;
 }

@@ -24,10 +24,7 @@ WalkJet RoundingAt(const SuperposedWalk& walk, const LocalTime& at) {
   const auto local = [&](int i) {
     return at.tau + (walk.start_of(at.half_step) - walk.start_of(i));
   };
-  // Of the difference of starts at most three half-steps apart, of a knot and of an interval's
-  // ends: sums of two terms each, no larger than the time at which the half-step ends.
-  const double longest = walk.tracks(at.half_step).duration() + std::abs(at.tau);
-  const double time = 16.0 * kRoundoff * (walk.start_of(at.half_step) + longest);
+  const double time = LocalTimeRounding(walk, at);
   int first = at.half_step, last = at.half_step;
   while (first > 0 && local(first - 1) < walk.tracks(first - 1).duration() + time) --first;
   while (last + 1 < walk.num_half_steps() && local(last + 1) > -time) ++last;
@@ -41,6 +38,13 @@ WalkJet RoundingAt(const SuperposedWalk& walk, const LocalTime& at) {
   error.first += sums * size.first;
   error.second += sums * size.second;
   return error;
+}
+
+// Of the difference of starts at most three half-steps apart, of a knot and of an interval's ends:
+// sums of two terms each, no larger than the time at which the half-step ends.
+double LocalTimeRounding(const SuperposedWalk& walk, const LocalTime& at) {
+  const double longest = walk.tracks(at.half_step).duration() + std::abs(at.tau);
+  return 16.0 * kRoundoff * (walk.start_of(at.half_step) + longest);
 }
 
 double TimeRounding(const SuperposedWalk& walk, int half_step) {

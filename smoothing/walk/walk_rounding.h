@@ -10,6 +10,10 @@ namespace halfstep {
 /// "Rounding", 2.
 WalkJet RoundingAt(const SuperposedWalk& walk, const LocalTime& at);
 
+/// How far the local times of half-steps that are under way there may be from the exact ones, ends
+/// of intervals and knots included [s].
+double LocalTimeRounding(const SuperposedWalk& walk, const LocalTime& at);
+
 /// How far absolute times in a half-step may be from the exact ones [s].
 double TimeRounding(const SuperposedWalk& walk, int half_step);
 

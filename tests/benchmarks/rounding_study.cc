@@ -50,7 +50,9 @@ int main(int argc, char** argv) {
   for (const char* robot : {"hrp2", "wren", "bison"}) {
     for (const double scale : {1.0, 0.035, 2.7}) {
       tally = {};
-      DrawLegs(halfstep::LoadRobot(robots + robot + ".yaml"), scale, draws / 90, 7, &tally);
+      const halfstep::RobotModel of = halfstep::LoadRobot(robots + robot + ".yaml");
+      DrawLegs(of, scale, draws / 90, 7, &tally);
+      DrawDynamics(of, scale, draws / 90, 8, &tally);
       char title[40];
       std::snprintf(title, sizeof title, "%s × %g", robot, scale);
       kept = Print(title, tally) && kept;

@@ -1,88 +1,9 @@
 #include "tests/oracle/exact_leg.h"
 
-#include <cmath>
-#include <utility>
-
 #include "wpg/nth.h"
 
 namespace halfstep::oracle {
 namespace {
-
-Real3 From(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-Real3 operator+(const Real3& a, const Real3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
-Real3 operator-(const Real3& a, const Real3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Real3 operator*(Real s, const Real3& a) { return {s * a[0], s * a[1], s * a[2]}; }
-Real Dot(const Real3& a, const Real3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Real3 Cross(const Real3& a, const Real3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Real3 operator*(const Real33& R, const Real3& x) {
-  return {Dot(R[0], x), Dot(R[1], x), Dot(R[2], x)};
-}
-Real33 Transposed(const Real33& A) {
-  Real33 T;
-  for (size_t i = 0; i < 3; ++i) {
-    for (size_t j = 0; j < 3; ++j) T[i][j] = A[j][i];
-  }
-  return T;
-}
-Real33 operator*(const Real33& A, const Real33& B) {
-  const Real33 T = Transposed(B);
-  Real33 C;
-  for (size_t i = 0; i < 3; ++i) C[i] = {Dot(A[i], T[0]), Dot(A[i], T[1]), Dot(A[i], T[2])};
-  return C;
-}
-Real Norm(const Real3& a) { return Sqrt(Dot(a, a)); }
-constexpr Real33 kIdentity = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-
-Real33 Rotation(const Real3& axis, Real angle) {
-  const Real c = Cos(angle), s = Sin(angle);
-  Real33 R;
-  for (size_t i = 0; i < 3; ++i) {
-    for (size_t j = 0; j < 3; ++j) R[i][j] = (1 - c) * axis[i] * axis[j] + (i == j ? c : Real(0));
-  }
-  R[0][1] -= s * axis[2];
-  R[1][0] += s * axis[2];
-  R[0][2] += s * axis[1];
-  R[2][0] -= s * axis[1];
-  R[1][2] -= s * axis[0];
-  R[2][1] += s * axis[0];
-  return R;
-}
-Real33 Yawed(Real yaw) { return Rotation({0, 0, 1}, yaw); }
-
-Real33 LinearOf(const Eigen::Isometry3d& X) {
-  Real33 R;
-  for (size_t i = 0; i < 3; ++i) {
-    for (size_t j = 0; j < 3; ++j) {
-      R[i][j] = X.linear()(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
-    }
-  }
-  return R;
-}
-
-// Gauss with pivots.
-Real6 Solved(std::array<Real6, 6> A, Real6 b) {
-  const auto size = [](Real x) { return x < 0 ? -x : x; };
-  for (size_t k = 0; k < 6; ++k) {
-    size_t pivot = k;
-    for (size_t i = k; i < 6; ++i) {
-      if (size(A[i][k]) > size(A[pivot][k])) pivot = i;
-    }
-    std::swap(A[k], A[pivot]);
-    std::swap(b[k], b[pivot]);
-    for (size_t i = k + 1; i < 6; ++i) {
-      const Real factor = A[i][k] / A[k][k];
-      for (size_t j = k; j < 6; ++j) A[i][j] -= factor * A[k][j];
-      b[i] -= factor * b[k];
-    }
-  }
-  for (size_t k = 6; k-- > 0;) {
-    for (size_t j = k + 1; j < 6; ++j) b[k] -= A[k][j] * b[j];
-    b[k] /= A[k][k];
-  }
-  return b;
-}
 
 struct Placed {
   std::array<Real3, 6> axis, point;
@@ -131,7 +52,7 @@ ExactLeg SolveExactLeg(const RobotModel& robot, Side side, const ClosedFormWalk:
   const Real33 R_BS = R_BW * Yawed(value[f + 3]);
   const Real3 lever = Real3{value[f], value[f + 1], value[f + 2]} - waist.place;
   const Real3 p_BS = R_BW * lever, sole = From(leg.X_BSole.translation());
-  const Real33 linear = LinearOf(leg.X_BSole);
+  const Real33 linear = FromMatrix(leg.X_BSole.linear());
   ExactLeg exact;
   for (size_t i = 0; i < 6; ++i) exact.q[i] = near[static_cast<Eigen::Index>(i)];
   for (int iteration = 0;; ++iteration) {
@@ -165,7 +86,7 @@ ExactLeg SolveExactLeg(const RobotModel& robot, Side side, const ClosedFormWalk:
 Real3 PointAt(const RobotModel& robot, Side side, const ExactLeg& exact, size_t link,
               const Eigen::Vector3d& p_L, const ClosedFormWalk::Quantities& value) {
   const Eigen::Isometry3d& X_BL = Nth(robot.legs, Index(side)).joints[link].X_BLink;
-  const Real3 p_B = LinearOf(X_BL) * From(p_L) + From(X_BL.translation());
+  const Real3 p_B = FromMatrix(X_BL.linear()) * From(p_L) + From(X_BL.translation());
   const Waist waist(robot, value, {});
   return waist.place + waist.R * (exact.R[link] * p_B + exact.t[link]);
 }

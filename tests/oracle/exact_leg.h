@@ -3,14 +3,11 @@
 #include <array>
 
 #include "tests/oracle/closed_form_walk.h"
+#include "tests/oracle/real_vectors.h"
 #include "wpg/motion/walk_state.h"
 #include "wpg/robot/robot_model.h"
 
 namespace halfstep::oracle {
-
-using Real3 = std::array<Real, 3>;
-using Real33 = std::array<Real3, 3>;  ///< rows
-using Real6 = std::array<Real, 6>;
 
 /// A leg between an upright waist and a level sole in the oracle's precision: Newton's method from
 /// what is nearly there.

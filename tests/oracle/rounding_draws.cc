@@ -57,7 +57,9 @@ Eigen::Isometry3d Scaled(Eigen::Isometry3d X, double scale) {
   return X;
 }
 
-RobotModel Scaled(RobotModel robot, double scale) {
+}  // namespace
+
+RobotModel ScaledRobot(RobotModel robot, double scale) {
   for (Leg& leg : robot.legs) {
     for (LegJoint& joint : leg.joints) {
       joint.point_B *= scale;
@@ -71,12 +73,21 @@ RobotModel Scaled(RobotModel robot, double scale) {
     body.shape.center *= scale;
     body.shape.radius *= scale;
   }
+  const auto scale_mass = [scale](BodyMass* of) {
+    of->com *= scale;
+    of->mass *= scale * scale * scale;
+    of->inertia *= scale * scale * scale * scale * scale;
+  };
+  scale_mass(&robot.masses.waist);
+  for (auto& leg : robot.masses.links) {
+    for (BodyMass& link : leg) scale_mass(&link);
+  }
+  robot.sole_size *= scale;
   robot.waist_height *= scale;
   robot.com_x_B *= scale;
   return robot;
 }
 
-// A posture with one leg near to stretched, the other one bent; both soles level.
 WalkJet DrawPose(const RobotModel& robot, double scale, Draw* draw) {
   WalkJet jet;
   const double far = draw->Chance(0.3) ? 900.0 : draw->Logarithmic(0.01, 100.0);
@@ -107,8 +118,6 @@ WalkJet DrawPose(const RobotModel& robot, double scale, Draw* draw) {
   }
   return jet;
 }
-
-}  // namespace
 
 void RoundingTally::Add(const std::string& part, double error, double bound) {
   Part& to = parts[part];
@@ -222,7 +231,7 @@ void DrawWalks(const std::string& robot_file, long draws, int steps, unsigned se
 }
 
 void DrawLegs(const RobotModel& of, double scale, long draws, unsigned seed, RoundingTally* tally) {
-  const RobotModel robot = Scaled(of, scale);
+  const RobotModel robot = ScaledRobot(of, scale);
   const RoundingOfPostures rounding(robot);
   Draw draw(seed);
   for (; draws > 0; --draws) {

@@ -3,6 +3,8 @@
 #include <map>
 #include <string>
 
+#include "tests/oracle/nasty_draws.h"
+#include "wpg/motion/walk_state.h"
 #include "wpg/robot/robot_model.h"
 
 namespace halfstep::oracle {
@@ -35,6 +37,12 @@ void DrawWalks(const std::string& robot_file, long draws, int steps, unsigned se
 void DrawLegs(const RobotModel& robot, double scale, long draws, unsigned seed,
               RoundingTally* tally);
 
+/// What such a robot's masses ask for: joints' accelerations, the floor's wrench, the ZMP, the
+/// torques of one foot that stands alone and of two that share, and the friction that one needs.
+/// Bounds are those of intervals of no width. With `of_bound` below 1 these are made too small.
+void DrawDynamics(const RobotModel& robot, double scale, long draws, unsigned seed,
+                  RoundingTally* tally, double of_bound = 1.0);
+
 /// Sums, products and quotients of random numbers (wpg/rounded.h).
 void DrawNumbers(long draws, unsigned seed, RoundingTally* tally);
 /// Points inside the support polygon of two soles, up to 900 m away and down to 1e-13 m from being
@@ -45,5 +53,11 @@ void DrawPolygons(long draws, unsigned seed, RoundingTally* tally);
 /// Slabs between two bodies of a robot, apart, up to 900 m away: how much wider than the exact one
 /// along the same direction.
 void DrawDistances(const RobotModel& robot, long draws, unsigned seed, RoundingTally* tally);
+
+/// A robot that is `scale` times as large, of the same stuff.
+RobotModel ScaledRobot(RobotModel robot, double scale);
+/// Values and first derivatives of an upright posture, both soles level: each leg from bent to
+/// stretched to 1e-12 of its length, up to 1 km away, with yaws of many turns.
+WalkJet DrawPose(const RobotModel& robot, double scale, Draw* draw);
 
 }  // namespace halfstep::oracle

@@ -61,6 +61,24 @@ TEST(RoundingTest, OfLegs) {
   }
 }
 
+// The same robots' forces. Bounds are far from sharp, for each is a sum of norms along a leg; so
+// it takes much to make them too small.
+TEST(RoundingTest, OfDynamics) {
+  for (const std::string& robot : kShippedRobots) {
+    for (const double scale : {1.0, 0.035, 2.7}) {
+      SCOPED_TRACE(robot + " × " + std::to_string(scale));
+      RoundingTally tally, too_small;
+      DrawDynamics(ShippedRobot(robot), scale, 200, 9, &tally);
+      Expect(tally, {});
+      EXPECT_GT(tally.parts["zmp"].undecided, 0);
+      DrawDynamics(ShippedRobot(robot), scale, 200, 9, &too_small, 1e-8);
+      for (const char* name : {"acceleration", "floor force", "floor moment", "zmp", "torque"}) {
+        EXPECT_GT(too_small.parts[name].largest, 1.0) << name;
+      }
+    }
+  }
+}
+
 TEST(RoundingTest, OfSupports) {
   RoundingTally tally;
   DrawSupports(5000, 6, &tally);

@@ -72,11 +72,13 @@ void ForEachInterval(const RobotModel& robot, unsigned seed, int walks, double s
 
 std::optional<LegMotion> LegOver(const RobotModel& robot, const DrawnInterval& drawn, Side side,
                                  const WalkThirds& thirds) {
+  const DynamicsRounding off = DynamicsRounding::At(robot, drawn.motion, drawn.at_m, kGravity);
   const LegDrift drift =
       LegDrift::Over(side, drawn.motion, DriftOfWaist(robot, drawn.motion, drawn.thirds),
-                     DriftOfSole(drawn.motion, drawn.thirds, side), drawn.at_m);
+                     DriftOfSole(drawn.motion, drawn.thirds, side), drawn.at_m, off);
   return LegMotion::Over(side, drawn.motion, MotionOfWaist(robot, drawn.motion, thirds),
-                         MotionOfSole(drawn.motion, thirds, side), drift, drawn.at_m);
+                         MotionOfSole(drawn.motion, thirds, side), drift, drawn.at_m, off,
+                         kGravity);
 }
 
 // Place, velocity and acceleration of the point of a body that is `from_O` at the instant.

@@ -195,8 +195,10 @@ TEST(LegDrift, IsNeverExceededInAnyOfItsParts) {
           const RobotDynamics there(robot, jet, posture, kGravity);
           for (const Side side : {Side::kLeft, Side::kRight}) {
             const size_t s = static_cast<size_t>(Index(side));
-            const LegDrift drift = LegDrift::Over(side, motion, DriftOfWaist(robot, motion, thirds),
-                                                  DriftOfSole(motion, thirds, side), at_m);
+            const LegDrift drift =
+                LegDrift::Over(side, motion, DriftOfWaist(robot, motion, thirds),
+                               DriftOfSole(motion, thirds, side), at_m,
+                               DynamicsRounding::At(robot, motion, at_m, kGravity));
             const auto compare = [&](int part, double truth, double bound) {
               const size_t of = static_cast<size_t>(part);
               excess[of] = std::max(excess[of], truth - bound);

@@ -50,12 +50,13 @@ void CompareLegs(const RobotModel& robot, const HandMadeMotion& motion,
   const RobotDynamics then(robot, motion.At(t), posture, kPull);
   for (const Side side : {Side::kLeft, Side::kRight}) {
     const size_t s = static_cast<size_t>(Index(side));
+    const DynamicsRounding off = DynamicsRounding::At(robot, made.interval, now, kPull);
     const LegDrift drift =
         LegDrift::Over(side, made.interval, DriftOfWaist(robot, made.interval, motion.Thirds()),
-                       DriftOfSole(made.interval, motion.Thirds(), side), now);
+                       DriftOfSole(made.interval, motion.Thirds(), side), now, off);
     const auto leg =
         LegMotion::Over(side, made.interval, MotionOfWaist(robot, made.interval, motion.Thirds()),
-                        MotionOfSole(made.interval, motion.Thirds(), side), drift, now);
+                        MotionOfSole(made.interval, motion.Thirds(), side), drift, now, off, kPull);
     const double joints = now.accelerations(side).norm() + then.accelerations(side).norm();
     for (size_t j = 0; j < 6; ++j) {
       const Eigen::Index i = static_cast<Eigen::Index>(j);

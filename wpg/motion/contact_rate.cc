@@ -4,6 +4,7 @@
 
 #include "wpg/motion/leg_motion.h"
 #include "wpg/nth.h"
+#include "wpg/rounded.h"
 
 namespace halfstep {
 namespace {
@@ -15,7 +16,9 @@ using Eigen::Vector3d;
 class TurnedInertia {
  public:
   TurnedInertia(const Eigen::Matrix3d& about_com, double turned)
-      : I_(about_com), norm_(about_com.norm()), change_(std::min(turned, 2.0) * norm_) {}
+      : I_(about_com),
+        norm_(about_com.norm()),
+        change_((std::min(turned, 2.0) + 16.0 * kRoundoff) * norm_) {}
   VectorBall operator*(const VectorBall& x) const {
     return {I_ * x.center, norm_ * x.radius + change_ * x.center.norm()};
   }
@@ -43,7 +46,9 @@ void ContactRate::Add(const SpatialInertia& inertia, const RigidMotion& com, con
 
 ContactRate ContactRate::Raised(double by) const {
   ContactRate raised = *this;
-  raised.moment = moment - Cross({by * Vector3d(tilt.x(), tilt.y(), 1.0), 0.0}, force);
+  const Vector3d arm = by * Vector3d(tilt.x(), tilt.y(), 1.0);
+  raised.moment = moment - Cross({arm, 0.0}, force);
+  raised.off.moment += arm.norm() * off.force;
   return raised;
 }
 
@@ -51,9 +56,15 @@ std::optional<ContactRate> ContactRate::Over(const RobotModel& robot, const Inte
                                              const WalkThirds& thirds, const RobotDrift& of_robot,
                                              const RobotDynamics& at_m, double gravity,
                                              double height) {
+  if (!of_robot.rounding.known) return std::nullopt;
   Vector3d p(0, 0, height);
   p.head<2>() = *at_m.Zmp(height);
-  ContactRate rate{.half_width = motion.half_width, .moment = {}, .force = {}, .tilt = at_m.Tilt()};
+  ContactRate rate{.half_width = motion.half_width,
+                   .moment = {},
+                   .force = {},
+                   .tilt = at_m.Tilt(),
+                   .off = of_robot.rounding.OfContact(at_m, p - at_m.O())};
+  rate.off.moment += at_m.contact()[5] * PlaceOfZmpRounding(at_m, p);
   const auto add = [&](const RobotDynamics::Body& body, const RigidMotion& its_motion) {
     const Vector3d com = at_m.O() + body.inertia.com;
     rate.Add(body.inertia, its_motion.At(com - its_motion.p.center), p, gravity);
@@ -62,8 +73,8 @@ std::optional<ContactRate> ContactRate::Over(const RobotModel& robot, const Inte
   add(at_m.waist(), waist);
   for (const Side side : {Side::kLeft, Side::kRight}) {
     const LegDrift& drift = Nth(of_robot.legs, Index(side));
-    const auto leg =
-        LegMotion::Over(side, motion, waist, MotionOfSole(motion, thirds, side), drift, at_m);
+    const auto leg = LegMotion::Over(side, motion, waist, MotionOfSole(motion, thirds, side), drift,
+                                     at_m, of_robot.rounding, gravity);
     if (!leg) return std::nullopt;
     for (size_t j = 0; j < 6; ++j) add(at_m.leg(side)[j], leg->links[j]);
   }

@@ -14,12 +14,14 @@ namespace halfstep {
 
 /// How fast what the floor gives to a robot changes over an interval [m − h, m + h], about the
 /// point p of a horizontal plane that is the ZMP there at m: balls that hold the derivatives at all
-/// times. In the axes of W. Source: smoothing/README.md, "Rates between instants".
+/// times, and (n(t) − n(m))/(t − m) also where the walk's third derivatives jump within rounding of
+/// the ends. In the axes of W. Source: smoothing/README.md, "Rates between instants".
 struct ContactRate {
   double half_width = 0.0;        ///< h [s]
   VectorBall moment;              ///< of the moment about p [N m/s]
   VectorBall force;               ///< of the force [N/s]
   Eigen::Vector2d tilt = {0, 0};  ///< RobotDynamics::Tilt at m
+  WrenchRounding off = {};        ///< of moment and force at m
 
   /// The same about the ZMP in the plane that is higher by `by` [m].
   ContactRate Raised(double by) const;

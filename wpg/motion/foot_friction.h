@@ -32,6 +32,8 @@ class FootFriction {
                                               const Eigen::Vector2d& sole_size);
 
   double height() const { return height_; }  ///< z of the polygon's plane [m]
+  /// How far the ZMP is inside the polygon [m].
+  double inside() const { return polygon_.Margin(zmp_); }
   /// The least friction coefficient at which the sole does not slip.
   double needed() const { return (pull_.norm() + std::abs(turn_) / reach_.distance) / push_; }
   /// Its derivative when dynamics.contact() changes by `contact_slope`, about the same O, while the
@@ -39,12 +41,13 @@ class FootFriction {
   double Slope(const Vector6d& contact_slope) const { return Gradient().dot(contact_slope); }
   /// Its gradient with respect to dynamics.contact(), while the polygon rests.
   Vector6d Gradient() const;
-  /// How much needed() grows at most over an interval; ∞: there is no bound. `zmp` is of the plane
-  /// of height().
-  double Drift(const RobotDrift& robot, const ZmpDrift& zmp) const;
+  /// How much what is needed exactly is more than needed() over an interval at most; ∞: there is no
+  /// bound. `zmp` is of the plane of height(), `soles_off` how far rounding may carry the polygon's
+  /// edges [m].
+  double Drift(const RobotDrift& robot, const ZmpDrift& zmp, double soles_off = 0.0) const;
   /// The same from rates of what the floor gives, about the ZMP in that plane: tighter by far where
   /// the interval is short.
-  double Drift(const ContactRate& rate) const;
+  double Drift(const ContactRate& rate, double soles_off = 0.0) const;
 
  private:
   // How far the ZMP is inside an edge along u, and the edge's inward normal for each metre along u:
@@ -60,7 +63,11 @@ class FootFriction {
   template <typename Visit>
   void ForEachReach(const Eigen::Vector2d& direction, const Visit& visit) const;
   // Whether the ZMP stays inside all edges of the polygon.
-  bool StaysInside(const ZmpDrift& zmp) const;
+  bool StaysInside(const ZmpDrift& zmp, double soles_off) const;
+  // By how much corners may stand out of the exact polygon [m].
+  double LeftOut() const;
+  // How far turn_ may be from that of dynamics.contact() about zmp_ [N m].
+  double TurnRounding() const;
   // The ZMP's distance from the polygon's edges along `direction` either way.
   Reach ReachAlong(const Eigen::Vector2d& direction) const;
 

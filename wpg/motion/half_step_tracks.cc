@@ -115,13 +115,21 @@ void HalfStepTracks::AddSecondBounds(double from, double to, WalkState* bounds) 
   }
 }
 
-void HalfStepTracks::AddThirdRanges(double from, double to, WalkThirds* thirds) const {
+void HalfStepTracks::AddThirdRanges(double from, double to, double time, WalkThirds* thirds) const {
+  // An exact time is at most 2·time from one between these, where knots cannot be on the other side
+  // by rounding; 16·time leaves room for the arithmetic of the ranges.
+  const double half = 0.5 * (to - from), a = from + time, b = to - time;
+  const bool some = a < b && b > 0.0 && a < duration_;
   std::array<std::optional<Range>, kNumProfiles> thirds_of;
   for (const Track& track : tracks_) {
     if (!Nth(kQuantities, track.quantity).bounded_third) continue;
     if (track.profile == kRiseProfile && !rises_) continue;
     std::optional<Range>& known = Nth(thirds_of, track.profile);
-    if (!known) known = Nth(profiles_, track.profile)->ThirdRange(from, to);
+    if (!known) {
+      const Profile& profile = *Nth(profiles_, track.profile);
+      known = some ? profile.ThirdRange(a, b) : Range();
+      if (half > 0.0) known->radius += profile.Accuracy(16.0 * time).error.second / half;
+    }
     const Range& range = *known;
     thirds->center[track.quantity] += range.center * track.change;
     thirds->radius[track.quantity] += range.radius * std::abs(track.change);

@@ -54,9 +54,11 @@ class HalfStepTracks {
   void AddMotion(double tau, WalkJet* jet) const;
   /// Adds sup |ẍ| over local times [from, to] [s].
   void AddSecondBounds(double from, double to, WalkState* bounds) const;
-  /// Adds all values of the third derivatives over local times [from, to] [s]: Profile::ThirdRange,
-  /// of the quantities for which QuantityTraits asks.
-  void AddThirdRanges(double from, double to, WalkThirds* thirds) const;
+  /// Adds all values of the third derivatives over local times [from, to] [s], of the quantities
+  /// for which QuantityTraits asks, and what local times that are off by at most `time` [s] do to
+  /// second derivatives: that is shared out to the third ones so that, seen from the middle, second
+  /// derivatives change by no more than they let them.
+  void AddThirdRanges(double from, double to, double time, WalkThirds* thirds) const;
 
   /// Adds how far rounding may carry what AddMotion adds from the exact walk on these footholds,
   /// local times off by at most `time` [s] besides, and the largest sizes of what it adds: both by

@@ -1,6 +1,8 @@
 #include "wpg/motion/knee_match.h"
 
+#include "wpg/motion/dynamics_rounding.h"
 #include "wpg/motion/spatial.h"
+#include "wpg/rounded.h"
 
 namespace halfstep {
 namespace {
@@ -29,6 +31,11 @@ KneeMatch::KneeMatch(const IntervalMotion& motion, Side side) {
              by_velocity_ * CrossMatrix(posture.X_WSole[s].translation() - points_[3]);
   turn_norms_ = by_turn_.rowwise().norm();
   velocity_norms_ = by_velocity_.rowwise().norm();
+  // The inverse is that of the exact Jacobian but for this, and for the place of the knee.
+  const LegRounding& leg = motion.rounding.legs[s];
+  const double turn = WaistTurnRounding(motion);
+  distance_off_ = 2.0 * leg.points;
+  off_ = leg.of_inverse + Most(turn, 2.0 * distance_off_ + turn * leg.chain);
 }
 
 // A column of J is an axis, and the axis × its arm to the knee. Both turn with the links.
@@ -44,7 +51,8 @@ Matrix6d KneeMatch::Change(const std::array<double, 6>& turned) const {
   arm[5] = arm[4] + turned[4] * Distance(5, 4);
   Matrix6d change;
   for (size_t j = 0; j < 6; ++j) {
-    change.col(static_cast<Eigen::Index>(j)) = Most(axis[j], axis[j] * Distance(j, 3) + arm[j]);
+    change.col(static_cast<Eigen::Index>(j)) =
+        off_ + Most(axis[j], axis[j] * Distance(j, 3) + arm[j]);
   }
   return change;
 }
@@ -64,8 +72,11 @@ std::optional<KneeMatch::JointBall> KneeMatch::Solve(const VectorBall& turn,
                                                      const std::array<double, 6>& turned) const {
   const Matrix6d change = Change(turned);
   const Vector6d center = Joints(turn.center, velocity.center);
-  const auto radius =
-      Bounded(Most(turn.radius, velocity.radius) + change * center.cwiseAbs(), change);
+  constexpr double kSums = 64.0 * kRoundoff;
+  const auto radius = Bounded(Most(turn.radius + kSums * turn.center.norm(),
+                                   velocity.radius + kSums * velocity.center.norm()) +
+                                  change * center.cwiseAbs(),
+                              change);
   if (!radius) return std::nullopt;
   return JointBall{center, *radius};
 }

@@ -20,8 +20,10 @@ class KneeMatch {
 
   /// Of the six joints' axes at the interval's midpoint m, in W [m].
   const std::array<Eigen::Vector3d, 6>& points() const { return points_; }
-  /// Between the points of two joints at m [m].
-  double Distance(size_t i, size_t j) const { return (points_[i] - points_[j]).norm(); }
+  /// Between the points of two joints at m, or more, by rounding [m].
+  double Distance(size_t i, size_t j) const {
+    return (points_[i] - points_[j]).norm() + distance_off_;
+  }
 
   /// J(m)⁻¹ of a missing twist: its turning, and the velocity of the knee's point.
   Vector6d Joints(const Eigen::Vector3d& turn, const Eigen::Vector3d& velocity) const {
@@ -31,8 +33,8 @@ class KneeMatch {
   Vector6d Most(double turn, double velocity) const {
     return turn * turn_norms_ + velocity * velocity_norms_;
   }
-  /// A bound of every entry of |J(m)⁻¹(J(t) − J(m))| when links have turned by no more than
-  /// `turned` since m (by link, from the hip down) [rad].
+  /// A bound of every entry of |1 − Y J(t)|, Y the computed J(m)⁻¹, when links have turned by no
+  /// more than `turned` since m (by link, from the hip down) [rad].
   Matrix6d Change(const std::array<double, 6>& turned) const;
 
   /// Bounds of all |x| for which J(t)·x has at most these norms, while links have turned by no more
@@ -53,6 +55,8 @@ class KneeMatch {
   std::array<Eigen::Vector3d, 6> points_;
   Eigen::Matrix<double, 6, 3> by_turn_, by_velocity_;
   Vector6d turn_norms_, velocity_norms_;  // of their rows
+  Vector6d off_;                          // of |1 − Y J(m)|, in every column of a row
+  double distance_off_ = 0.0;
 };
 
 }  // namespace halfstep

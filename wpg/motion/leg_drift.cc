@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 class Chain {
  public:
   Chain(Side side, const IntervalMotion& motion, const RigidDrift& waist, const RigidDrift& sole,
-        const RobotDynamics& at_m)
+        const RobotDynamics& at_m, const DynamicsRounding& off)
       : waist_(waist),
         sole_(sole),
         turns_(Nth(motion.joints, Index(side)).turns),
@@ -23,27 +23,30 @@ class Chain {
         knee_(motion, side),
         waist_point_(motion.posture.X_WB.translation()),
         sole_point_(Nth(motion.posture.X_WSole, Index(side)).translation()) {
+    const auto& links_off = Nth(off.legs, Index(side));
+    off_ = 2.0 * links_off[0].place;
     for (size_t j = 0; j < 6; ++j) {
       const RobotDynamics::Body& link = at_m.leg(side)[j];
-      speed_[j] = link.velocity.head<3>().norm();
-      acceleration_[j] = link.acceleration.head<3>().norm();
-      const RobotDynamics::Body& base =
-          LegAnchors::OnHip(static_cast<int>(j)) ? at_m.waist() : at_m.leg(side)[5];
-      from_base_[j] = (link.acceleration - base.acceleration).head<3>().norm();
+      speed_[j] = link.velocity.head<3>().norm() + links_off[j].spin;
+      acceleration_[j] = link.acceleration.head<3>().norm() + links_off[j].spin1;
+      const bool on_hip = LegAnchors::OnHip(static_cast<int>(j));
+      const RobotDynamics::Body& base = on_hip ? at_m.waist() : at_m.leg(side)[5];
+      from_base_[j] = (link.acceleration - base.acceleration).head<3>().norm() +
+                      links_off[j].spin1 + (on_hip ? off.waist : links_off[5]).spin1;
     }
   }
 
   // Places the links. With `true_motion`, joints move as the robot's do, not with the q̈ of m.
   void Place(const std::array<JointDrift, 6>& joints, bool true_motion) {
-    RigidDrift parent = waist_.At((knee_.points()[0] - waist_point_).norm());
+    RigidDrift parent = waist_.At((knee_.points()[0] - waist_point_).norm() + off_);
     for (size_t j = 0; j < 3; ++j) {
       links[j] = Turned(parent, joints[j], speed_[j], acceleration_[j], h_);
       Narrow(j, waist_, true_motion);
       parent = links[j].At(knee_.Distance(j, j + 1));
     }
     links[5] = sole_;
-    links[4] = Turned(sole_.At((knee_.points()[5] - sole_point_).norm()), joints[5], speed_[4],
-                      acceleration_[4], h_);
+    links[4] = Turned(sole_.At((knee_.points()[5] - sole_point_).norm() + off_), joints[5],
+                      speed_[4], acceleration_[4], h_);
     Narrow(4, sole_, true_motion);
     links[3] =
         Turned(links[4].At(knee_.Distance(5, 4)), joints[4], speed_[3], acceleration_[3], h_);
@@ -87,6 +90,7 @@ class Chain {
   Vector3d waist_point_, sole_point_;
   std::array<double, 6> speed_, acceleration_;  // of the links at m
   std::array<double, 6> from_base_;             // ‖ω̇ less that of waist or sole‖ at m
+  double off_;  // of a distance of two points of the leg, by rounding
 };
 
 // Of an upright frame whose origin moves as the quantity `x`, the one after it, and `z`.
@@ -97,16 +101,19 @@ RigidDrift UprightDrift(const IntervalMotion& motion, const WalkThirds& thirds, 
   const auto norm = [&](const WalkState& values) {
     return Vector3d(values[x], values[x + 1], values[z]).norm();
   };
+  // At m, no less than the exact ones.
+  const WalkState &first_off = motion.off.first, &second_off = motion.off.second;
   RigidDrift drift;
-  drift.speed = std::abs(first[yaw]);
-  drift.acceleration = std::abs(second[yaw]);
+  drift.speed = std::abs(first[yaw]) + first_off[yaw];
+  drift.acceleration = std::abs(second[yaw]) + second_off[yaw];
   // A second derivative drifts by no more than the third lets it, and by no more than it can be.
   drift.turn1 = h * thirds.of(yaw).most();
   drift.turn1 = std::min(drift.turn1, drift.acceleration + most[yaw]);
   drift.p2 = h * norm(thirds.center.cwiseAbs() + thirds.radius);
-  drift.p2 = std::min(drift.p2, norm(second.cwiseAbs() + most));
+  drift.p2 = std::min(drift.p2, norm(second.cwiseAbs() + second_off + most));
   drift.turn = h * std::min(most[yaw], drift.acceleration + drift.turn1);
-  drift.p = h * (norm(first) + h * std::min(norm(most), norm(second) + drift.p2));
+  drift.p = h * (norm(first.cwiseAbs() + first_off) +
+                 h * std::min(norm(most), norm(second.cwiseAbs() + second_off) + drift.p2));
   drift.turned = h * drift.fastest();
   return drift;
 }
@@ -125,19 +132,20 @@ RigidDrift DriftOfSole(const IntervalMotion& motion, const WalkThirds& thirds, S
 }
 
 LegDrift LegDrift::Over(Side side, const IntervalMotion& motion, const RigidDrift& waist,
-                        const RigidDrift& sole, const RobotDynamics& at_m) {
+                        const RigidDrift& sole, const RobotDynamics& at_m,
+                        const DynamicsRounding& off) {
   const size_t s = static_cast<size_t>(Index(side));
   const Vector6d& most = motion.joints[s].acceleration;
-  const Vector6d accelerations = at_m.accelerations(side).cwiseAbs();
+  const Vector6d accelerations = at_m.accelerations(side).cwiseAbs() + off.accelerations[s];
   std::array<JointDrift, 6> joints;
   for (size_t j = 0; j < 6; ++j) {
     const Eigen::Index i = static_cast<Eigen::Index>(j);
-    joints[j] = {.speed = std::abs(motion.posture.speeds[s][i]),
+    joints[j] = {.speed = std::abs(motion.posture.speeds[s][i]) + motion.rounding.legs[s].speeds[i],
                  .acceleration = accelerations[i],
                  .speed_drift = motion.half_width * most[i],
                  .acceleration_drift = 0.0};
   }
-  Chain chain(side, motion, waist, sole, at_m);
+  Chain chain(side, motion, waist, sole, at_m, off);
   chain.Place(joints, /*true_motion=*/false);
   const Vector6d drift = chain.AccelerationDrift(joints, accelerations + most);
   for (size_t j = 0; j < 6; ++j) {

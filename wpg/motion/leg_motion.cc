@@ -14,24 +14,32 @@ using Eigen::Vector3d;
 RigidMotion UprightMotion(const IntervalMotion& motion, const WalkThirds& thirds, int x, int height,
                           int yaw) {
   const double h = motion.half_width;
+  const WalkJet& off = motion.off;
   const Vector3d z = Vector3d::UnitZ();
   const auto place = [&](const WalkState& values) {
     return Vector3d(values[x], values[x + 1], values[height]);
   };
   const Range third = thirds.of(yaw);
   RigidMotion frame;
-  frame.turn = {motion.jet.first[yaw] * z, h * motion.second[yaw]};
-  frame.turn1 = {motion.jet.second[yaw] * z, h * third.most()};
+  frame.turn = {motion.jet.first[yaw] * z, h * motion.second[yaw] + off.first[yaw]};
+  frame.turn1 = {motion.jet.second[yaw] * z, h * third.most() + off.second[yaw]};
   frame.turn2 = {third.center * z, third.radius};
   frame.p3 = {place(thirds.center), place(thirds.radius).norm()};
-  frame.p2 = {place(motion.jet.second), h * frame.p3.most()};
-  frame.p1 = {place(motion.jet.first), h * std::min(place(motion.second).norm(), frame.p2.most())};
-  frame.p = {place(motion.jet.value), h * frame.p1.most()};
+  frame.p2 = {place(motion.jet.second), h * frame.p3.most() + place(off.second).norm()};
+  frame.p1 = {place(motion.jet.first),
+              h * std::min(place(motion.second).norm(), frame.p2.most()) + place(off.first).norm()};
+  frame.p = {place(motion.jet.value), h * frame.p1.most() + place(off.value).norm()};
+  const PostureRounding& rounding = motion.rounding;
+  frame.arm_off =
+      2.0 * std::max({rounding.waist, rounding.legs[0].points, rounding.legs[1].points});
+  frame.turn_off =
+      std::max(LegTurnRounding(motion, Side::kLeft), LegTurnRounding(motion, Side::kRight)) +
+      off.value[yaw];
   frame.BoundTurned(h);
   return frame;
 }
 
-// A derivative drifts by no more than the next one lets it.
+// A derivative drifts by no more than the next one lets it, and rounding.
 void Lower(double radius, VectorBall* ball) { ball->radius = std::min(ball->radius, radius); }
 void Lower(double radius, Range* range) { range->radius = std::min(range->radius, radius); }
 
@@ -39,13 +47,17 @@ void Lower(double radius, Range* range) { range->radius = std::min(range->radius
 class LinkChain {
  public:
   LinkChain(Side side, double half_width, const RigidMotion& waist, const RigidMotion& sole,
-            const LegDrift& drift, const RobotDynamics& at_m, const KneeMatch& knee)
+            const LegDrift& drift, const RobotDynamics& at_m, const KneeMatch& knee,
+            const DynamicsRounding& off, double gravity)
       : h_(half_width),
         waist_(waist),
         sole_(sole),
         drift_(drift),
+        O_(at_m.O()),
         leg_(at_m.leg(side)),
-        knee_(knee) {}
+        off_(Nth(off.legs, Index(side))),
+        knee_(knee),
+        gravity_(gravity) {}
 
   // Places the links. With `true_thirds`, q⃛ is what it is at all times, and not any number.
   void Place(const std::array<JointRates, 6>& joints, bool true_thirds) {
@@ -73,26 +85,42 @@ class LinkChain {
   VectorBall missing_turn, missing_velocity;
 
  private:
+  // Drifts are of the exact link from the exact one at m, which is no farther from a ball's centre
+  // than the computed one is from both.
   void Narrow(size_t j, bool true_thirds) {
     RigidMotion& link = links[j];
     const RigidDrift& drift = drift_.links[j];
-    Lower(drift.turn1, &link.turn1);
-    Lower(drift.p2, &link.p2);
+    const RobotDynamics::Body& at_m = leg_[j];
+    const Vector3d point = link.p.center - O_, turn = at_m.velocity.head<3>();
+    const Vector3d velocity = at_m.velocity.tail<3>() + turn.cross(point);
+    const Vector3d acceleration = at_m.acceleration.tail<3>() - gravity_ * Vector3d::UnitZ() +
+                                  at_m.acceleration.head<3>().cross(point) + turn.cross(velocity);
+    const PointRounding of_point = off_[j].Of(at_m, point);
+    const double off_turn = off_[j].spin + (link.turn.center - turn).norm();
+    const double off_turn1 =
+        off_[j].spin1 + (link.turn1.center - at_m.acceleration.head<3>()).norm();
+    const double off1 = of_point.speed + (link.p1.center - velocity).norm();
+    const double off2 = of_point.acceleration + (link.p2.center - acceleration).norm();
+    Lower(drift.turn1 + off_turn1, &link.turn1);
+    Lower(drift.p2 + off2, &link.p2);
     if (true_thirds) {
-      Lower(h_ * link.turn2.most(), &link.turn1);
-      Lower(h_ * link.p3.most(), &link.p2);
+      Lower(h_ * link.turn2.most() + off_turn1, &link.turn1);
+      Lower(h_ * link.p3.most() + off2, &link.p2);
     }
-    Lower(std::min(drift.turn, h_ * link.turn1.most()), &link.turn);
-    Lower(h_ * link.p2.most(), &link.p1);
-    Lower(std::min(drift.p, h_ * link.p1.most()), &link.p);
-    link.turned = std::min(drift.turned, h_ * link.turn.most());
+    Lower(std::min(drift.turn, h_ * link.turn1.most()) + off_turn, &link.turn);
+    Lower(h_ * link.p2.most() + off1, &link.p1);
+    Lower(std::min(drift.p, h_ * link.p1.most()) + of_point.place, &link.p);
+    link.turned = std::min(drift.turned, h_ * link.turn.most()) + link.turn_off;
   }
 
   double h_;
   const RigidMotion &waist_, &sole_;
   const LegDrift& drift_;
+  const Vector3d& O_;
   const RobotDynamics::LegBodies& leg_;
+  const std::array<BodyRounding, 6>& off_;
   const KneeMatch& knee_;
+  double gravity_;
 };
 
 }  // namespace
@@ -111,16 +139,20 @@ RigidMotion MotionOfSole(const IntervalMotion& motion, const WalkThirds& thirds,
 
 std::optional<LegMotion> LegMotion::Over(Side side, const IntervalMotion& motion,
                                          const RigidMotion& waist, const RigidMotion& sole,
-                                         const LegDrift& drift, const RobotDynamics& at_m) {
+                                         const LegDrift& drift, const RobotDynamics& at_m,
+                                         const DynamicsRounding& off, double gravity) {
   const double h = motion.half_width;
+  const Vector6d& speeds_off = Nth(motion.rounding.legs, Index(side)).speeds;
+  const Vector6d& accelerations_off = Nth(off.accelerations, Index(side));
   const Vector6d& speeds = Nth(motion.posture.speeds, Index(side));
   const KneeMatch knee(motion, side);
-  LinkChain chain(side, h, waist, sole, drift, at_m, knee);
+  LinkChain chain(side, h, waist, sole, drift, at_m, knee, off, gravity);
   std::array<JointRates, 6> joints;
   for (size_t j = 0; j < 6; ++j) {
     const Eigen::Index i = static_cast<Eigen::Index>(j);
-    joints[j] = {.speed = {speeds[i], drift.joints[j].speed_drift},
-                 .acceleration = {at_m.accelerations(side)[i], drift.joints[j].acceleration_drift},
+    joints[j] = {.speed = {speeds[i], drift.joints[j].speed_drift + speeds_off[i]},
+                 .acceleration = {at_m.accelerations(side)[i],
+                                  drift.joints[j].acceleration_drift + accelerations_off[i]},
                  .third = {0.0, 0.0}};
   }
   // With q⃛ = 0 first, so that J q⃛ is what is missing.
@@ -133,8 +165,8 @@ std::optional<LegMotion> LegMotion::Over(Side side, const IntervalMotion& motion
     JointRates& joint = joints[j];
     const Eigen::Index i = static_cast<Eigen::Index>(j);
     joint.third = {third->center[i], third->radius[i]};
-    Lower(h * joint.third.most(), &joint.acceleration);
-    Lower(h * joint.acceleration.most(), &joint.speed);
+    Lower(h * joint.third.most() + accelerations_off[i], &joint.acceleration);
+    Lower(h * joint.acceleration.most() + speeds_off[i], &joint.speed);
   }
   chain.Place(joints, /*true_thirds=*/true);
   return LegMotion{chain.links};

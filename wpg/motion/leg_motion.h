@@ -26,11 +26,13 @@ struct LegMotion {
   /// Of the six links, from the hip down; their points are those of LegDrift.
   std::array<RigidMotion, 6> links;
 
-  /// Preconditions: `motion` is bounded, `at_m` are the dynamics at m, `drift` is the leg's. None
-  /// where no bound of the joints' third derivatives is found, because the interval is too long.
+  /// Preconditions: `motion` is bounded, `at_m` are the dynamics at m under `gravity`, `off` is
+  /// what rounding does to them, `drift` is the leg's. None where no bound of the joints' third
+  /// derivatives is found, because the interval is too long.
   static std::optional<LegMotion> Over(Side side, const IntervalMotion& motion,
                                        const RigidMotion& waist, const RigidMotion& sole,
-                                       const LegDrift& drift, const RobotDynamics& at_m);
+                                       const LegDrift& drift, const RobotDynamics& at_m,
+                                       const DynamicsRounding& off, double gravity);
 };
 
 }  // namespace halfstep

@@ -58,8 +58,7 @@ class LipmCom final : public LipmProfile {
     return time().Second(shift().ComSecondBound());
   }
   Range ThirdRange(double from, double to) const override {
-    const auto [a, b] = time().WithoutRounding(from, to);
-    return time().Third(shift().ComThirdRange(a, b));
+    return time().Third(shift().ComThirdRange(time().Of(from), time().Of(to)));
   }
 };
 

@@ -53,18 +53,21 @@ Vector6d ResolvedRounding(const Vector6d& at, const Vector6d& k) {
   return at + k * (at.maxCoeff() / (1.0 - share));
 }
 
-RoundingOfPostures::RoundingOfPostures(const RobotModel& robot) : robot_(robot) {
+RoundingOfPostures::RoundingOfPostures(const RobotModel& robot)
+    : robot_(robot), waist_(robot.masses.waist.com.norm()) {
   for (size_t s = 0; s < 2; ++s) {
     const Leg& leg = robot.legs[s];
     Vector3d at = Vector3d::Zero();
-    double chain = 0.0, link = 0.0;
+    double chain = 0.0, link = 0.0, body_size = 0.0;
     for (const LegJoint& joint : leg.joints) {
       chain += (joint.point_B - at).norm();
       at = joint.point_B;
       link = std::max(link, (joint.X_BLink.translation() - at).norm());
     }
     chain += (leg.X_BSole.translation() - at).norm();
-    double body_size = 0.0;
+    for (const BodyMass& mass : robot.masses.links[s]) {
+      body_size = std::max(body_size, mass.com.norm());
+    }
     for (const RobotBody& body : robot.bodies) {
       const double size = body.shape.center.norm() + body.shape.radius;
       if (body.leg == static_cast<int>(s)) body_size = std::max(body_size, size);

@@ -22,10 +22,8 @@ class Profile {
   virtual ProfileAccuracy Accuracy(double time) const = 0;
   /// sup |π̈| over local times [from, to] [s], some of which are between 0 and T [1/s²].
   virtual double SecondBound(double from, double to) const = 0;
-  /// All values of the third time derivative over local times [from, to] [1/s³], but for
-  /// 2·10⁻¹³ T at either end: between knots at absolute times these may belong to the piece beyond
-  /// the knot, by rounding. What the walk does in that time is far below what margins add for
-  /// rounding. Only where QuantityTraits::bounded_third asks for it (std::logic_error).
+  /// All values of the third time derivative over local times [from, to] [1/s³], but for rounding.
+  /// Only where QuantityTraits::bounded_third asks for it (std::logic_error).
   virtual Range ThirdRange(double from, double to) const = 0;
   /// Appends the local times in (0, T] at which the profile changes its formula [s].
   virtual void AddKnots(std::vector<double>* knots) const = 0;

@@ -256,7 +256,8 @@ double RestToRest::ZmpSecondBound(double from, double to) const {
 Range RestToRest::ComThirdRange(double from, double to) const {
   if (to <= 0.0 || from >= 1.0) return {};
   const double fourth = theta_ * theta_ * (ComSecondBound() + ZmpSecondBound(from, to));
-  return {Com(0.5 * (from + to)).sss, 0.5 * (to - from) * fourth};
+  const double off = theta_ * theta_ * (com_accuracy_.error.s + zmp_accuracy_.error.s);
+  return {Com(0.5 * (from + to)).sss, 0.5 * (to - from) * fourth + 2.0 * off};
 }
 
 }  // namespace halfstep

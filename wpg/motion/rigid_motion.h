@@ -5,15 +5,17 @@
 namespace halfstep {
 
 /// What a rigid body does over an interval of time [m − h, m + h], up to third derivatives: balls
-/// that hold everything for all t there, with what is exact at m for centres of all but the third.
-/// In the axes of W. `p` is a point that is fixed in the body.
+/// that hold everything of the exact body for all t there, with what is computed at m for centres
+/// of all but the third. In the axes of W. `p` is a point that is fixed in the body.
 struct RigidMotion {
   VectorBall turn, turn1, turn2;  ///< ω [rad/s], ω̇, ω̈
   VectorBall p, p1, p2, p3;       ///< place of the point [m], and its derivatives
-  double turned = 0.0;            ///< the body turns by at most this from where it is at m [rad]
+  double turned = 0.0;  ///< the body is turned by at most this from where it is computed at m [rad]
+  double turn_off = 0.0;  ///< what of that rounding does [rad]
+  double arm_off = 0.0;   ///< how far the way from one point to another may be off at m [m]
 
   /// Sets `turned` from `turn`, h = `half_width` [s].
-  void BoundTurned(double half_width) { turned = half_width * turn.most(); }
+  void BoundTurned(double half_width) { turned = half_width * turn.most() + turn_off; }
 
   /// A vector that is fixed in the body and is `at_m` in W at m.
   VectorBall Carried(const Eigen::Vector3d& at_m) const {
@@ -21,7 +23,9 @@ struct RigidMotion {
   }
   /// The same motion with another point of the body, which is `at_m` from `p` at m.
   RigidMotion At(const Eigen::Vector3d& at_m) const {
-    const VectorBall d = Carried(at_m), d1 = Cross(turn, d), d2 = Cross(turn, d1);
+    VectorBall d = Carried(at_m);
+    d.radius += arm_off;
+    const VectorBall d1 = Cross(turn, d), d2 = Cross(turn, d1);
     RigidMotion motion = *this;
     motion.p += d;
     motion.p1 += d1;

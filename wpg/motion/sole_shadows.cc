@@ -48,6 +48,7 @@ double SoleShadows::LeastOver(const ZmpDrift& drift) const {
     const double inside = inward.dot(zmp_ - hull_.corner(i));
     least = std::min(least, inside - std::max(fall(i, inward), fall(i + 1, inward)));
   }
+  if (shared) least -= kNone;
   return least >= 0.0 ? least : -std::numeric_limits<double>::infinity();
 }
 

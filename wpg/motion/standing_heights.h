@@ -13,7 +13,7 @@ namespace halfstep {
 class StandingHeights {
  public:
   /// What is less apart, or less away from z = 0, counts as level: rounding of superposed tracks is
-  /// far below it, and it moves the ZMP by less than a tenth of what margins add for rounding [m].
+  /// far below it. Proofs contain what that does (MarginInterval::SolesOff) [m].
   static constexpr double kLevel = 1e-10;
 
   /// In a walk's quantities x; `only` is the foot that stands alone, where one does.

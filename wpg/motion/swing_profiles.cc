@@ -24,8 +24,7 @@ class FormProfile : public Profile {
     return time_.Second(form_.SecondBound(time_.Of(from), time_.Of(to)));
   }
   Range ThirdRange(double from, double to) const override {
-    const auto [a, b] = time_.WithoutRounding(from, to);
-    return time_.Third(form_.ThirdRange(a, b));
+    return time_.Third(form_.ThirdRange(time_.Of(from), time_.Of(to)));
   }
   void AddKnots(std::vector<double>* knots) const override {
     knots->insert(knots->end(), {form_.begin * time_.duration, form_.end * time_.duration});

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <utility>
-
 #include "wpg/motion/profile_jet.h"
 #include "wpg/motion/vector_ball.h"
 #include "wpg/rounded.h"
@@ -38,13 +36,6 @@ struct UnitTime {
                       .second =
                           r * r * (of.error.ss + of.most.sss * off + 6.0 * kRoundoff * of.most.ss)},
             .most = {.value = of.most.value, .first = r * of.most.s, .second = r * r * of.most.ss}};
-  }
-  /// The interval of σ without what the rounding of absolute times may have added at its ends:
-  /// there knots lie, mostly of the same half-step, and beyond one a derivative may be much larger.
-  std::pair<double, double> WithoutRounding(double from, double to) const {
-    constexpr double kRounding = 2e-13;
-    const double a = from / duration, b = to / duration;
-    return b - a > 2.0 * kRounding ? std::pair{a + kRounding, b - kRounding} : std::pair{a, b};
   }
 };
 

@@ -11,16 +11,17 @@
 
 namespace halfstep {
 
-/// How far the whole robot's ZMP in a horizontal plane can go over an interval from where it is at
-/// the midpoint m. About the point p of the plane that is the ZMP at m, the floor's force has no
-/// horizontal moment n at m; so p(t) − p = (−n_y, n_x)/f_z, and n(t) is what the parts of the robot
-/// have drifted by. Source: smoothing/README.md, "The robot's ZMP between instants".
+/// How far the exact robot's ZMP in a horizontal plane can be over an interval from where it is
+/// computed at the midpoint m. About that point p of the plane, the floor's force has no horizontal
+/// moment n at m but by rounding; so p(t) − p = (−n_y, n_x)/f_z, and n(t) is that and what the
+/// parts of the robot have drifted by. Source: smoothing/README.md, "The robot's ZMP between
+/// instants".
 struct ZmpDrift {
   double half_width = 0.0;  ///< h [s]
   /// Rate of n that is known by direction: of the waist's part, for all t of the interval, and at m
   /// of the legs' weights [N m/s].
   VectorBall rate;
-  double rest = 0.0;        ///< sup ‖n(t) − n(m)‖ of all else [N m]
+  double rest = 0.0;        ///< sup ‖n(t) − n(m)‖ of all else, and of rounding at m [N m]
   double least_push = 0.0;  ///< of the floor, f_z [N]; not positive: there is no bound
   /// Rate of the floor's force f that is known by direction, as of n [N/s].
   VectorBall force_rate = {};
