@@ -88,13 +88,26 @@ class LipmZmp final : public LipmProfile {
   }
 };
 
+// Half-steps of a walk mostly share θ and shape, and to solve for their motion takes longer than
+// all else that is made of them. What was solved last in this thread is the same again, to the bit.
+std::shared_ptr<const RestToRest> Solved(double theta, double shift, double bump_ramp) {
+  struct Last {
+    double theta = 0.0, shift = 0.0, bump_ramp = 0.0;
+    std::shared_ptr<const RestToRest> motion;
+  };
+  static thread_local Last last;
+  if (!last.motion || last.theta != theta || last.shift != shift || last.bump_ramp != bump_ramp) {
+    last = {theta, shift, bump_ramp, std::make_shared<const RestToRest>(theta, shift, bump_ramp)};
+  }
+  return last.motion;
+}
+
 }  // namespace
 
 MotionModel::Proposal Lipm::Propose(HalfStepKind, const HalfStepShape& shape,
                                     double duration) const {
   const UnitTime time{.duration = duration, .omega = omega()};
-  const auto shift =
-      std::make_shared<const RestToRest>(time.omega * duration, shape.shift, shape.bump_ramp);
+  const auto shift = Solved(time.omega * duration, shape.shift, shape.bump_ramp);
   return {.com = std::make_shared<LipmCom>(shift, shape, time),
           .zmp = std::make_shared<LipmZmp>(shift, shape, time)};
 }
