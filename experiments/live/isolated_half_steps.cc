@@ -39,6 +39,12 @@ std::optional<SetElement> ElementOf(const HalfStep& half_step, const StepSet& se
   return std::nullopt;
 }
 
+bool EndsWithSetElement(const SuperposedWalk& walk, int j, const StepSet& set) {
+  // Ends are in order: when the one before has ended, all have.
+  return (j == 0 || walk.end_of(j - 1) <= walk.start_of(j)) &&
+         ElementOf(walk.half_step(j), set).has_value();
+}
+
 bool IsolatedAndFree(const SuperposedWalk& walk, int j, const StepSet& set,
                      const HalfStepQuery& query) {
   if (!IsIsolated(walk, j)) return false;

@@ -18,6 +18,11 @@ struct SetElement {
 /// or goes higher than the set's.
 std::optional<SetElement> ElementOf(const HalfStep& half_step, const StepSet& set);
 
+/// Whether the walk cut after half-step j is an isolated half-step of the set from that half-step's
+/// beginning on: none before it is still under way then. So it keeps whatever the set was proved to
+/// keep wherever it stands.
+bool EndsWithSetElement(const SuperposedWalk& walk, int j, const StepSet& set);
+
 /// Whether no other half-step of the walk is under way together with half-step j, this one is a
 /// half-step of the set, and its swept volume is free: then it keeps the clearance of the volumes
 /// at all times. `query` is of volumes of the set. No-step areas

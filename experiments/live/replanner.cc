@@ -68,6 +68,7 @@ Replanner::Replanner(const Place& place, const LiveConfig& config, const SweptVo
       config_(config),
       half_steps_(volumes, place.robot, config.experiment),
       alone_(place.robot, place.scene.Emptied(), config.experiment),
+      set_is_proved_(!HasLevels(*place.scene.ground) && place.scene.friction >= Scene{}.friction),
       proved_alone_(HasLevels(*place.scene.ground)),
       width_(WidthAtStart(place, config)) {}
 
@@ -91,8 +92,10 @@ std::optional<Margin> Replanner::Prove(const Situation& s, const SuperposedWalk&
                                        const PreparedWorld& among, const NearRest* near,
                                        Proposal* proposal) const {
   const int from = std::max(proposal->robot_through + 1, s.begun);
-  const Safety robot =
-      alone_.OfRobot(walk, from, last, [&](int j) { return proved_alone_.Knows(walk, j); });
+  const Safety robot = alone_.OfRobot(walk, from, last, [&](int j) {
+    return (set_is_proved_ && EndsWithSetElement(walk, j, half_steps_.set())) ||
+           proved_alone_.Knows(walk, j);
+  });
   for (int j = from; j <= robot.through; ++j) proved_alone_.Remember(walk, j);
   proposal->effort += robot.work.effort();
   proposal->robot_through = std::max(robot.through, proposal->robot_through);
@@ -144,10 +147,10 @@ std::optional<Margin> Replanner::Splice(const Situation& s, const WalkPlan& plan
   changed.first_changed = junction + 1;
   changed.smoothed.resize(static_cast<size_t>(junction));
   changed.smoothed.resize(static_cast<size_t>(changed.plan.sequence.num_junctions()), false);
-  // The walk is another one from t_{junction + 1} on, and so is its half-step `junction` until
-  // then.
-  changed.robot_through = std::min(proposal->robot_through, junction - 1);
-  changed.grant.through = std::min(proposal->grant.through, junction - 1);
+  // The walk is another one from t_{junction + 1} on. Cut after half-step `junction` it is the
+  // same, and so is what was proved of it.
+  changed.robot_through = std::min(proposal->robot_through, junction);
+  changed.grant.through = std::min(proposal->grant.through, junction);
   const double check = SteadySeconds();
   const SuperposedWalk walk = changed.plan.Walk();
   const int last = std::min(junction + at_once, walk.num_half_steps() - 1);

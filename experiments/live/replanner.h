@@ -31,7 +31,8 @@ struct PreparedWorld;
 class Replanner {
  public:
   /// Of the place the robot and the ground count; what worlds hold is measured. Half-steps are
-  /// called free by `volumes`, which is borrowed; its clearances are those that the config demands.
+  /// called free by `volumes`, which is borrowed; its clearances are those that the config demands,
+  /// and its set is what CertifiedHalfSteps() proved of this robot with this config.
   Replanner(const Place& place, const LiveConfig& config, const SweptVolumes& volumes);
   /// The same with half-steps that are called free by their proofs.
   Replanner(const Place& place, const LiveConfig& config);
@@ -126,6 +127,9 @@ class Replanner {
   LiveConfig config_;
   FreeHalfSteps half_steps_;
   SafetyCheck alone_;  // without obstacles
+  // Whether half-steps of the set are proved to keep all that `alone_` asks: they are on the floor
+  // that they were proved on, or one that is no more slippery.
+  bool set_is_proved_ = false;
   mutable RememberedHalfSteps proved_alone_;
   double width_;  // between the soles' centres where the feet stand side by side [m]
 };

@@ -23,7 +23,11 @@ struct PoseCells {
       const auto index = static_cast<std::int64_t>(std::floor(value / edge + 0.5));
       return static_cast<std::uint64_t>(index) & ((std::uint64_t{1} << bits) - 1);
     };
-    const double turned = std::remainder(state.X_WS.yaw, 2.0 * std::numbers::pi);
+    double turned = state.X_WS.yaw;
+    // Within half a turn the remainder is the yaw itself.
+    if (!(std::fabs(turned) <= std::numbers::pi)) {
+      turned = std::remainder(turned, 2.0 * std::numbers::pi);
+    }
     const std::uint64_t planar =
         cell(state.X_WS.x, position, 21) << 43 | cell(state.X_WS.y, position, 21) << 22 |
         cell(turned, yaw, 21) << 1 | static_cast<std::uint64_t>(Index(state.support));

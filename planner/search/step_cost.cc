@@ -30,17 +30,22 @@ StepReach::StepReach(const StepSet& set, const std::vector<int>& elements,
                      const std::vector<double>& costs)
     : least_cost_(std::numeric_limits<double>::infinity()) {
   HALFSTEP_CHECK(!elements.empty(), "no elements");
+  std::vector<Eigen::Vector2d> seconds;
+  for (int k : elements) {
+    seconds.push_back(set.Placement(k, Side::kRight).Planar().position());
+  }
+  double pair2 = 0.0;  // its square
   for (int i : elements) {
     const Pose2 first = set.Placement(i, Side::kLeft).Planar();
     const Eigen::Matrix2d turned = first.rotation();
     one_ = std::max(one_, first.position().norm());
     turn_ = std::max(turn_, std::fabs(first.yaw));
     least_cost_ = std::min(least_cost_, Nth(costs, i));
-    for (int k : elements) {
-      const Eigen::Vector2d second = set.Placement(k, Side::kRight).Planar().position();
-      pair_ = std::max(pair_, (first.position() + turned * second).norm());
+    for (const Eigen::Vector2d& second : seconds) {
+      pair2 = std::max(pair2, (first.position() + turned * second).squaredNorm());
     }
   }
+  pair_ = std::sqrt(pair2);
 }
 
 double StepReach::Distance(int n) const { return (n / 2) * pair_ + (n % 2) * one_; }

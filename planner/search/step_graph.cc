@@ -91,11 +91,16 @@ Foothold StepGraph::Landing(const StepState& from, int k) const {
 void StepGraph::Landings(const StepState& from, std::vector<Foothold>* X_WF) const {
   const auto [s, c] = SinCos(from.X_WS.yaw);
   X_WF->clear();
+  X_WF->reserve(elements_.size());
+  // Most often all is at one height.
+  const bool as_in_set = !looks_up_heights() && request_.levels.empty();
   for (const Foothold& X_SF : Nth(placements_, Index(from.support))) {
+    const double height = as_in_set            ? from.X_WS.height + X_SF.height
+                          : looks_up_heights() ? std::numeric_limits<double>::quiet_NaN()
+                                               : OnLevel(from.X_WS.height + X_SF.height);
     X_WF->push_back({{from.X_WS.x + c * X_SF.x - s * X_SF.y, from.X_WS.y + s * X_SF.x + c * X_SF.y,
                       from.X_WS.yaw + X_SF.yaw},
-                     looks_up_heights() ? std::numeric_limits<double>::quiet_NaN()
-                                        : OnLevel(from.X_WS.height + X_SF.height)});
+                     height});
   }
 }
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <functional>
 
 #include "wpg/elementary.h"
 #include "wpg/nth.h"
@@ -10,7 +10,6 @@
 namespace halfstep {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Blocked elements that one sample may try [count]. More: the tree clings to walls; fewer: it
 /// needs more samples to find the way round.
 constexpr int kTriesPerSample = 8;
@@ -155,6 +154,15 @@ StepTree::Growth StepTree::Add(const StepState& state, int parent, int k, double
   return LookForTarget(index);
 }
 
+// Without the height, and for little: false only where Hits() is false.
+bool StepTree::MayHit(const Foothold& X_WF) const {
+  if (!target_.state) return true;
+  constexpr double kRounding = 1e-9;  // [m]
+  const Foothold& at = target_.state->X_WS;
+  return std::fabs(X_WF.x - at.x) <= target_.near + kRounding &&
+         std::fabs(X_WF.y - at.y) <= target_.near + kRounding;
+}
+
 // Elements of a new node that land on the target. `landings_` may be in use by the caller.
 StepTree::Growth StepTree::LookForTarget(int index) {
   const StepState from = Nth(nodes_, index).state;
@@ -164,8 +172,10 @@ StepTree::Growth StepTree::LookForTarget(int index) {
                 graph_.reach().one() + target_.near
           : graph_.LeastSteps(from) <= 1;
   if (!near) return Growth::kAdded;
+  graph_.Landings(from, &near_target_);
   for (int k = 0; k < graph_.size(); ++k) {
-    const Foothold X_WF = graph_.Landing(from, k);
+    if (!MayHit(Nth(near_target_, k))) continue;
+    const Foothold X_WF = graph_.Settled(from, Nth(near_target_, k));
     if (Hits(from, k, X_WF) && Try(index, k, X_WF) == Edge::kArrived) return Growth::kArrived;
   }
   return Growth::kAdded;
@@ -183,18 +193,22 @@ StepTree::Growth StepTree::Grow(const TreeSample& sample) {
   const bool with_yaw = face_forward || sample.yaw != TreeSample::Yaw::kFree;
 
   graph_.Landings(from, &landings_);
-  distances_.clear();
+  // The nearest first, as many as are tried; among equals in the order of elements.
+  order_.clear();
+  const std::vector<bool>& tried = Nth(nodes_, index).tried;
   for (size_t k = 0; k < landings_.size(); ++k) {
-    distances_.push_back(Nth(nodes_, index).tried[k]
-                             ? kInfinity
-                             : StateDistance(landings_[k].Planar(), wanted, with_yaw));
+    if (tried[k]) continue;
+    const double distance = StateDistance(landings_[k].Planar(), wanted, with_yaw);
+    order_.emplace_back(distance, static_cast<int>(k));
   }
+  const std::greater<> farther;
+  std::ranges::make_heap(order_, farther);
   Growth growth = Growth::kTrapped;
   for (int blocked = 0; growth == Growth::kTrapped && blocked < kTriesPerSample;) {
-    const auto best = std::min_element(distances_.begin(), distances_.end());
-    if (*best == kInfinity) break;
-    *best = kInfinity;
-    const auto k = static_cast<int>(best - distances_.begin());
+    if (order_.empty()) break;
+    const int k = order_.front().second;
+    std::ranges::pop_heap(order_, farther);
+    order_.pop_back();
     switch (Try(index, k, graph_.Settled(from, Nth(landings_, k)))) {
       case Edge::kUseless:
         break;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <unordered_set>
+#include <utility>
 #include <vector>
 
 #include "planner/search/plan_search.h"
@@ -72,6 +73,7 @@ class StepTree {
   enum class Edge { kUseless, kBlocked, kAdded, kArrived };
 
   bool Hits(const StepState& from, int k, const Foothold& X_WF) const;
+  bool MayHit(const Foothold& X_WF) const;
   double LeastCostFrom(const StepState& state) const;
   Edge Try(int index, int k, const Foothold& X_WF);
   Edge TryInTime(int index, int k, const Foothold& X_WF);
@@ -89,8 +91,8 @@ class StepTree {
   StateBuckets buckets_;
   std::unordered_set<std::uint64_t> reached_;
   StepPlan arrival_;
-  std::vector<Foothold> landings_;
-  std::vector<double> distances_;
+  std::vector<Foothold> landings_, near_target_;
+  std::vector<std::pair<double, int>> order_;  // a heap of distance and element
 };
 
 }  // namespace halfstep

@@ -1,10 +1,13 @@
 // Episodes drawn at random: one row an episode, then what the bench asks, then a histogram.
 //   live_study [FIRST [COUNT [POLICY [THREADS [MINUTES]]]]]
 //   live_study events SEED [POLICY]
+//   live_study tables SEED [COUNT [POLICY]]
 // Default: seeds 1 … 100, policy replan, one thread; no episode begins after so many minutes. The
 // policy `wall` is replan by the wall clock, `counted` replan in lockstep that charges what was
-// counted, 1 s a unit of effort. `events` prints what happened in one episode. HRP-2's
-// swept volumes from the user's cache, baked when they are not there.
+// counted, 1 s a unit of effort. `events` prints what happened in one episode; `tables` walks
+// episodes in lockstep and does nothing else, and prints the hash of each one's tables: a change
+// that only makes replanning cheaper leaves them as they are (callgrind counts what it saves).
+// HRP-2's swept volumes from the user's cache, baked when they are not there.
 
 #include <cstdio>
 #include <map>
@@ -79,6 +82,18 @@ int main(int argc, char** argv) {
       if (event.what == "measured") continue;
       std::printf("%.3f %s world %d walk %d half-step %d %s\n", event.t, event.what.c_str(),
                   event.version, event.walk, event.half_step + 1, event.text.c_str());
+    }
+    return 0;
+  }
+  if (argument(0, "") == "tables") {
+    const LiveStudy tabled = MakeStudy(argument(3, "replan"));
+    const std::uint64_t first = std::stoull(argument(1, "1"));
+    for (std::uint64_t seed = first; seed < first + std::stoull(argument(2, "1")); ++seed) {
+      const WalkedEpisode walked = WalkOnly(tabled, seed);
+      std::printf("%llu %s %zu walks %s\n", static_cast<unsigned long long>(seed),
+                  std::string(Name(walked.episode.ending)).c_str(), walked.episode.walks.size(),
+                  walked.tables.c_str());
+      std::fflush(stdout);
     }
     return 0;
   }

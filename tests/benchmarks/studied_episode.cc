@@ -8,11 +8,13 @@
 #include <random>
 
 #include "experiments/live/episode_summary.h"
+#include "experiments/live/episode_tables.h"
 #include "experiments/live/episode_touch.h"
 #include "experiments/live/near_rest.h"
 #include "experiments/live/sensor.h"
 #include "smoothing/proof/certified_feasibility.h"
 #include "tests/benchmarks/random_episode.h"
+#include "wpg/files/sha256.h"
 #include "wpg/motion/lipm.h"
 
 namespace halfstep {
@@ -156,6 +158,24 @@ void Time(const Episode& episode, StudiedEpisode* studied) {
 }
 
 }  // namespace
+
+WalkedEpisode WalkOnly(const LiveStudy& study, std::uint64_t seed) {
+  const RandomEpisode drawn = DrawEpisode(study.base, seed);
+  const LiveOptions& live = drawn.config.live;
+  const TrueWorld truth(drawn.scene, drawn.config.experiment.goal, live);
+  const Replanner replanner(study.place, drawn.config, *study.baked.cached.volumes);
+  StandInSensor sensor(truth, live, static_cast<std::uint64_t>(drawn.config.experiment.seed) + 1);
+  WalkedEpisode walked{.episode = RunLockstep(replanner, &sensor, study.start, {}), .tables = {}};
+  std::string text;
+  for (const EpisodeTable& table : EpisodeTables(walked.episode, {})) {
+    if (table.name != "timings") text += table.file.text;
+  }
+  for (size_t walk = 0; walk < walked.episode.walks.size(); ++walk) {
+    for (const EpisodeTable& table : WalkTables(walked.episode, walk)) text += table.file.text;
+  }
+  walked.tables = Sha256(text);
+  return walked;
+}
 
 StudiedEpisode WalkEpisode(const LiveStudy& study, std::uint64_t seed) {
   const RandomEpisode drawn = DrawEpisode(study.base, seed);

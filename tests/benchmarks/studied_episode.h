@@ -62,6 +62,14 @@ struct StudiedEpisode {
   bool touched() const { return nearest <= 0.0; }
 };
 
+/// An episode as it was walked, without anything that examines it.
+struct WalkedEpisode {
+  Episode episode;
+  std::string tables;  ///< SHA-256 of all its tables but timings.csv
+};
+/// Walks the episode of a seed.
+WalkedEpisode WalkOnly(const LiveStudy& study, std::uint64_t seed);
+
 /// Walks the episode of a seed and examines it.
 StudiedEpisode WalkEpisode(const LiveStudy& study, std::uint64_t seed);
 

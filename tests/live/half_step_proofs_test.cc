@@ -119,5 +119,61 @@ TEST_F(HalfStepProofsTest, ARobotThatRestsIsNotRefusedForWhatWouldComeNext) {
   EXPECT_TRUE(safety.refused_by);
 }
 
+// What the set was proved of is not proved anew: the proof would find the same of half-steps that
+// begin at rest, and none is spared of one that does not or that is of no element.
+TEST_F(HalfStepProofsTest, OfTheSetAreThoseOfTheRobotAlone) {
+  const Proposal first = Begin(0);
+  const WalkPlan& plan = first.plan;
+  const StepSet& set = small_.baked.cached.volumes->set;
+  const SafetyCheck alone(small_.place.robot, Scene{}, small_.config.experiment);
+  const SuperposedWalk walk = plan.Walk();
+  EXPECT_FALSE(EndsWithSetElement(walk, 0, set));  // from where the robot stood
+  for (int j = 1; j < walk.num_half_steps(); ++j) {
+    EXPECT_TRUE(EndsWithSetElement(walk, j, set)) << j;
+    EXPECT_EQ(alone.OfRobot(walk, j, j).through, j);
+  }
+  WalkPlan overlapping = plan;
+  overlapping.parameters.overlaps[2] = 0.1;
+  EXPECT_TRUE(EndsWithSetElement(overlapping.Walk(), 2, set));  // what comes after is no part of it
+  EXPECT_FALSE(EndsWithSetElement(overlapping.Walk(), 3, set));
+  EXPECT_TRUE(EndsWithSetElement(overlapping.Walk(), 4, set));
+  WalkPlan shorter = plan;
+  shorter.parameters.durations[3] -= 0.01;
+  EXPECT_FALSE(EndsWithSetElement(shorter.Walk(), 3, set));
+  // A first walk proves its first half-step alone: an interval each 70 ms, most of them once.
+  constexpr double kIntervals = 200.0;
+  EXPECT_GT(first.effort, 0.0);
+  EXPECT_LT(first.effort, 1e-6 * Work::kInterval * kIntervals);
+}
+
+// Other footsteps behind a half-step leave the walk cut after it as it was, to the bit, so what was
+// proved of that one stays.
+TEST_F(HalfStepProofsTest, StayWhereOtherFootstepsFollow) {
+  const Proposal begun = Begin(4);
+  world_.version = 1;
+  world_.goal.X_WG.y += 0.4;
+  std::mt19937_64 random(1);
+  const Proposal changed = replanner_.Propose({.plan = begun.plan,
+                                               .smoothed = begun.smoothed,
+                                               .grant = begun.grant,
+                                               .robot_through = begun.robot_through,
+                                               .now = 0.1,
+                                               .hand_over = 0.2,
+                                               .world = std::make_shared<const World>(world_)},
+                                              *replanner_.Prepare(world_), random);
+  ASSERT_EQ(changed.kind, ProposalKind::kChanged) << changed.reason;
+  const int junction = changed.first_changed - 1;
+  EXPECT_GT(changed.grant.through, junction);
+  const SuperposedWalk before = begun.plan.Walk().StopBranch(junction);
+  const SuperposedWalk after = changed.plan.Walk().StopBranch(junction);
+  ASSERT_EQ(after.duration(), before.duration());
+  for (double t = 0.0; t <= before.duration(); t += 0.01) {
+    const WalkJet a = before.At(t), b = after.At(t);
+    EXPECT_EQ(a.value, b.value);
+    EXPECT_EQ(a.first, b.first);
+    EXPECT_EQ(a.second, b.second);
+  }
+}
+
 }  // namespace
 }  // namespace halfstep

@@ -6,6 +6,7 @@
 #include <limits>
 #include <random>
 #include <stdexcept>
+#include <vector>
 
 #include "opt/problem/derivative_check.h"
 #include "wpg/motion/lipm.h"
@@ -262,6 +263,30 @@ TEST(SmoothstepTest, IsC2FromZeroToOneAndAntisymmetric) {
     const DerivativeReport report = CheckJacobian(function, Eigen::VectorXd::Constant(1, sigma),
                                                   Eigen::Vector3d(f.s, f.ss, f.sss), 1e-4);
     EXPECT_TRUE(report.Passed(1e-9)) << report.Describe();
+  }
+}
+
+// A model solves each motion once in a row, and whatever it solved before changes nothing.
+TEST(LipmTest, WhatWasAskedBeforeChangesNothing) {
+  HalfStepShape round, flat;
+  flat.bump_ramp = 0.3;
+  HalfStepShape shifted = round;
+  shifted.shift *= 1.1;
+  const auto values = [](const Lipm& model, const HalfStepShape& shape, double duration) {
+    const MotionModel::Proposal motion = model.Propose(HalfStepKind::kUp, shape, duration);
+    std::vector<double> all;
+    for (double part = 0.05; part < 1.0; part += 0.1) {
+      const ProfileJet com = motion.com->At(part * duration), zmp = motion.zmp->At(part * duration);
+      all.insert(all.end(), {com.value, com.first, com.second, zmp.value, zmp.first});
+    }
+    return all;
+  };
+  const Lipm low(0.6), high(0.8);
+  const std::vector<double> first = values(high, round, 1.6);
+  for (const auto& other : {values(high, round, 1.7), values(high, flat, 1.6),
+                            values(high, shifted, 1.6), values(low, round, 1.6)}) {
+    EXPECT_NE(other, first);
+    EXPECT_EQ(values(high, round, 1.6), first);
   }
 }
 

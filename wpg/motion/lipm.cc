@@ -1,9 +1,9 @@
 #include "wpg/motion/lipm.h"
 
 #include <algorithm>
+#include <array>
 
 #include "wpg/check.h"
-#include "wpg/motion/rest_to_rest.h"
 #include "wpg/motion/unit_time.h"
 
 namespace halfstep {
@@ -89,11 +89,22 @@ class LipmZmp final : public LipmProfile {
 
 }  // namespace
 
+// Half-steps of a walk mostly share θ and shape, and to solve for their motion takes longer than
+// all else that is made of them. What was solved last is the same again, to the bit.
+std::shared_ptr<const RestToRest> Lipm::Solved(double theta, double shift, double bump_ramp) const {
+  const std::lock_guard lock(mutex_);
+  const std::array wanted = {theta, shift, bump_ramp};
+  if (!last_ || last_of_ != wanted) {
+    last_ = std::make_shared<const RestToRest>(theta, shift, bump_ramp);
+    last_of_ = wanted;
+  }
+  return last_;
+}
+
 MotionModel::Proposal Lipm::Propose(HalfStepKind, const HalfStepShape& shape,
                                     double duration) const {
   const UnitTime time{.duration = duration, .omega = omega()};
-  const auto shift =
-      std::make_shared<const RestToRest>(time.omega * duration, shape.shift, shape.bump_ramp);
+  const auto shift = Solved(time.omega * duration, shape.shift, shape.bump_ramp);
   return {.com = std::make_shared<LipmCom>(shift, shape, time),
           .zmp = std::make_shared<LipmZmp>(shift, shape, time)};
 }

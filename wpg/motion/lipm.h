@@ -1,9 +1,12 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <memory>
+#include <mutex>
 
 #include "wpg/motion/motion_model.h"
+#include "wpg/motion/rest_to_rest.h"
 #include "wpg/robot/gravity.h"
 
 namespace halfstep {
@@ -28,7 +31,13 @@ class Lipm final : public MotionModel {
   std::vector<std::pair<std::string_view, double>> numbers() const override;
 
  private:
+  std::shared_ptr<const RestToRest> Solved(double theta, double shift, double bump_ramp) const;
+
   double com_height_;
+  // What Propose() solved last, and for which θ, shift and ramp.
+  mutable std::mutex mutex_;
+  mutable std::shared_ptr<const RestToRest> last_;
+  mutable std::array<double, 3> last_of_{};
 };
 
 }  // namespace halfstep
