@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "wpg/geometry/rotation.h"
+#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
@@ -31,14 +32,16 @@ double Displacement(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to, 
          TurnBetween(from.linear(), to.linear()) * radius;
 }
 
-Contradiction PastWorlds::Between(const Place& before, const Obstacle& now, double radius) {
-  return {.name = now.name,
+Contradiction PastWorlds::Between(const Track& track, const Place& before, const Obstacle& now) {
+  const Like& like = Nth(track.likes, before.like);
+  return {.name = {},
           .version = before.version,
           .was_there = true,
-          .moved = Displacement(before.X_WO, now.X_WO, radius),
+          .moved = (now.X_WO.translation() - before.p_WO).norm() +
+                   TurnBetween(like.axes, now.X_WO.linear()) * track.radius,
           .elapsed = now.motion.measured_at - before.measured_at,
-          .errors = before.error + now.motion.error,
-          .speed = before.speed};
+          .errors = like.error + now.motion.error,
+          .speed = like.speed};
 }
 
 bool PastWorlds::MayContradict(const Run& run, const Obstacle& now, double radius) {
@@ -49,54 +52,97 @@ bool PastWorlds::MayContradict(const Run& run, const Obstacle& now, double radiu
   return way + turn * radius > allowed;
 }
 
-PastWorlds::Run PastWorlds::Together(std::span<const Place> places) {
-  Run run{.center = places.front().X_WO.translation(),
+void PastWorlds::Run::Widen(const Like& like) {
+  turn = std::max(turn, TurnBetween(axes, like.axes));
+  error = std::min(error, like.error);
+  speed = std::min(speed, like.speed);
+}
+
+// Around the mean of the places: of an obstacle that rests that is where it is, of one that is
+// carried the middle of its way.
+PastWorlds::Run PastWorlds::Track::Together(std::span<const Place> some) const {
+  int as = some.front().like;
+  const Like& first = Nth(likes, as);
+  Run run{.center = Eigen::Vector3d::Zero(),
           .radius = 0.0,
-          .axes = places.front().X_WO.linear(),
+          .axes = first.axes,
           .turn = 0.0,
-          .error = places.front().error,
-          .speed = places.front().speed,
-          .last_measured_at = places.back().measured_at};
-  // Towards the farthest place by a part of the way that shrinks: ends near the smallest ball.
-  const auto farthest = [&] {
-    return std::ranges::max_element(places, {}, [&](const Place& place) {
-      return (place.X_WO.translation() - run.center).squaredNorm();
-    });
-  };
-  constexpr int kMoves = 60;
-  for (int i = 2; i < kMoves; ++i) {
-    run.center += (farthest()->X_WO.translation() - run.center) / i;
-  }
-  run.radius = (farthest()->X_WO.translation() - run.center).norm();
-  for (const Place& place : places) {
-    run.turn = std::max(run.turn, TurnBetween(run.axes, place.X_WO.linear()));
-    run.error = std::min(run.error, place.error);
-    run.speed = std::min(run.speed, place.speed);
+          .error = first.error,
+          .speed = first.speed,
+          .last_measured_at = some.back().measured_at};
+  for (const Place& place : some) run.center += place.p_WO;
+  run.center /= static_cast<double>(some.size());
+  for (const Place& place : some) {
+    run.radius = std::max(run.radius, (place.p_WO - run.center).norm());
+    if (place.like != as) run.Widen(Nth(likes, place.like));
+    as = place.like;
   }
   return run;
+}
+
+// What takes long is done now for some tracks and now for others.
+void PastWorlds::Track::Add(const Place& place) {
+  places.push_back(place);
+  const size_t size = places.size();
+  const std::span<const Place> every = places;
+  if (size >= refit) {
+    all = Together(every);
+    refit = 2 * size + number % size;
+  } else {
+    all.radius = std::max(all.radius, (place.p_WO - all.center).norm());
+    if (place.like != every[size - 2].like) all.Widen(Nth(likes, place.like));
+    all.last_measured_at = place.measured_at;
+  }
+  const auto add = [&](size_t length, std::vector<Run>* to) {
+    const size_t from = to->size() * length;
+    if ((size + number) % length != 0 || from + length > size) return;
+    to->push_back(Together(every.subspan(from, length)));
+  };
+  add(kRun, &runs);
+  add(kRun * kRun, &long_runs);
 }
 
 PastWorlds::PastWorlds(std::span<const World> worlds) {
   for (const World& world : worlds) Add(world);
 }
 
-void PastWorlds::Add(const World& world) {
-  for (const Obstacle& obstacle : world.scene.obstacles) {
-    Track& track = tracks_[obstacle.name];
-    if (track.places.empty() || track.places.back().version != last_) {
-      track = {.absent = last_, .radius = RadiusAboutOrigin(obstacle.shape)};
-    }
-    track.places.push_back({.version = world.version,
-                            .X_WO = obstacle.X_WO,
-                            .error = obstacle.motion.error,
-                            .speed = obstacle.motion.speed,
-                            .measured_at = obstacle.motion.measured_at});
-    const std::span<const Place> all = track.places;
-    if (all.size() % kRun == 0) track.runs.push_back(Together(all.last(kRun)));
-    if (all.size() % (kRun * kRun) == 0) {
-      track.long_runs.push_back(Together(all.last(kRun * kRun)));
-    }
+PastWorlds::Track* PastWorlds::Find(const std::string& name, size_t* likely) const {
+  constexpr size_t kMostlyWithin = 4;  // of an order in which some vanished
+  for (size_t k = *likely; k < std::min(*likely + kMostlyWithin, recent_.size()); ++k) {
+    if (recent_[k]->name != name) continue;
+    *likely = k + 1;
+    return recent_[k];
   }
+  const auto it = tracks_.find(name);
+  const bool was_there = it != tracks_.end() && it->second->places.back().version == last_;
+  return was_there ? it->second.get() : nullptr;
+}
+
+void PastWorlds::Add(const World& world) {
+  std::vector<Track*> now;
+  now.reserve(world.scene.obstacles.size());
+  size_t likely = 0;
+  for (const Obstacle& obstacle : world.scene.obstacles) {
+    Track* track = Find(obstacle.name, &likely);
+    if (track == nullptr) {
+      std::unique_ptr<Track>& begun = tracks_[obstacle.name];
+      begun = std::make_unique<Track>();
+      track = begun.get();
+      track->name = obstacle.name;
+      track->absent = last_;
+      track->radius = RadiusAboutOrigin(obstacle.shape);
+      track->number = begun_++;
+    }
+    now.push_back(track);
+    const ObstacleMotion& motion = obstacle.motion;
+    const Like like{obstacle.X_WO.linear(), motion.error, motion.speed};
+    if (track->likes.empty() || !(track->likes.back() == like)) track->likes.push_back(like);
+    track->Add({.version = world.version,
+                .like = static_cast<int>(track->likes.size()) - 1,
+                .measured_at = motion.measured_at,
+                .p_WO = obstacle.X_WO.translation()});
+  }
+  recent_ = std::move(now);
   std::map<size_t, int> absent;
   for (const size_t area : world.areas) {
     const auto before = areas_absent_.find(area);
@@ -108,46 +154,53 @@ void PastWorlds::Add(const World& world) {
 
 std::vector<Contradiction> PastWorlds::Latest(const World& now, int since) const {
   std::vector<Contradiction> latest;
-  const auto add = [&](Contradiction found) {
-    if (found.version >= std::max(since, 0)) latest.push_back(std::move(found));
+  const auto add = [&](const std::string& name, Contradiction found) {
+    if (found.version < std::max(since, 0)) return;
+    found.name = name;
+    latest.push_back(std::move(found));
   };
-  for (const Obstacle& obstacle : now.scene.obstacles) add(Latest(obstacle, since));
+  const auto absent = [](int version) {
+    return Contradiction{.name = {}, .version = version, .was_there = false};
+  };
+  size_t likely = 0;
+  for (const Obstacle& obstacle : now.scene.obstacles) {
+    const Track* track = Find(obstacle.name, &likely);
+    const Place* place = track ? Latest(*track, obstacle, since) : nullptr;
+    add(obstacle.name, place   ? Between(*track, *place, obstacle)
+                       : track ? absent(track->absent)
+                               : absent(last_));
+  }
   for (const size_t area : now.areas) {
     const auto before = areas_absent_.find(area);
-    add({.name = "no-step area " + std::to_string(area + 1),
-         .version = before == areas_absent_.end() ? last_ : before->second,
-         .was_there = false});
+    add("no-step area " + std::to_string(area + 1),
+        absent(before == areas_absent_.end() ? last_ : before->second));
   }
   return latest;
 }
 
-Contradiction PastWorlds::Latest(const Obstacle& now, int since) const {
-  const auto absent = [&](int version) {
-    return Contradiction{.name = now.name, .version = version, .was_there = false};
+const PastWorlds::Place* PastWorlds::Latest(const Track& track, const Obstacle& now, int since) {
+  if (!MayContradict(track.all, now, track.radius)) return nullptr;
+  const auto clears = [&](size_t end, size_t length, const std::vector<Run>& runs) {
+    return end % length == 0 && end / length <= runs.size() &&
+           !MayContradict(runs[end / length - 1], now, track.radius);
   };
-  const auto it = tracks_.find(now.name);
-  if (it == tracks_.end() || it->second.places.back().version != last_) return absent(last_);
-  const Track& track = it->second;
   for (size_t end = track.places.size(); end > 0;) {
-    if (track.places[end - 1].version < since) return {};
-    const size_t i = end / kRun;
-    if (end % (kRun * kRun) == 0 &&
-        !MayContradict(track.long_runs[i / kRun - 1], now, track.radius)) {
+    if (track.places[end - 1].version < since) return nullptr;
+    if (clears(end, kRun * kRun, track.long_runs)) {
       end -= kRun * kRun;
-    } else if (end % kRun == 0 && !MayContradict(track.runs[i - 1], now, track.radius)) {
+    } else if (clears(end, kRun, track.runs)) {
       end -= kRun;
     } else {
       // One by one to the beginning of the run.
       const size_t begin = (end - 1) / kRun * kRun;
       for (; end > begin; --end) {
         const Place& place = track.places[end - 1];
-        if (place.version < since) return {};
-        Contradiction found = Between(place, now, track.radius);
-        if (found.beyond() > kRoundingOfPlaces) return found;
+        if (place.version < since) return nullptr;
+        if (Between(track, place, now).beyond() > kRoundingOfPlaces) return &place;
       }
     }
   }
-  return absent(track.absent);
+  return nullptr;
 }
 
 }  // namespace halfstep

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "experiments/live/isolated_half_steps.h"
 #include "experiments/live/near_rest.h"
@@ -80,8 +81,9 @@ Replanner::Replanner(const Place& place, const LiveConfig& config)
       proved_alone_(HasLevels(*place.scene.ground)),
       width_(WidthAtStart(place, config)) {}
 
-std::shared_ptr<const PreparedWorld> Replanner::Prepare(const World& world) const {
-  return std::make_shared<const PreparedWorld>(world, robot_, config_.experiment, half_steps_);
+std::shared_ptr<const PreparedWorld> Replanner::Prepare(std::shared_ptr<const World> world) const {
+  return std::make_shared<const PreparedWorld>(std::move(world), robot_, config_.experiment,
+                                               half_steps_);
 }
 
 bool Replanner::Arrives(const WalkPlan& plan, const World& world) const {

@@ -38,7 +38,11 @@ class Replanner {
   Replanner(const Place& place, const LiveConfig& config);
 
   /// What questions about a world need, ready to be asked by several threads.
-  std::shared_ptr<const PreparedWorld> Prepare(const World& world) const;
+  std::shared_ptr<const PreparedWorld> Prepare(std::shared_ptr<const World> world) const;
+  /// The same of a copy of the world.
+  std::shared_ptr<const PreparedWorld> Prepare(const World& world) const {
+    return Prepare(std::make_shared<const World>(world));
+  }
 
   /// `among` is prepared of the situation's world.
   Proposal Propose(const Situation& situation, const PreparedWorld& among,

@@ -6,8 +6,7 @@
 namespace halfstep {
 
 const PreparedWorld& PreparedWorlds::Of(const std::shared_ptr<const World>& world) {
-  if (!prepared_ || world_ != world) prepared_ = replanner_.Prepare(*world);
-  world_ = world;
+  if (!prepared_ || prepared_->held != world) prepared_ = replanner_.Prepare(world);
   return *prepared_;
 }
 

@@ -35,7 +35,6 @@ class PreparedWorlds {
 
  private:
   const Replanner& replanner_;
-  std::shared_ptr<const World> world_;
   std::shared_ptr<const PreparedWorld> prepared_;
 };
 

@@ -13,13 +13,17 @@ namespace {
 
 constexpr double kRounding = 1e-9;  // [m]
 
-// The obstacle of that name; mostly obstacles are there in the same order.
+// The obstacle of that name. Mostly obstacles are there in the same order: `likely` is where it is
+// looked for first, and then the next one.
 std::optional<size_t> Find(const std::vector<Obstacle>& obstacles, const std::string& name,
-                           size_t likely) {
-  if (likely < obstacles.size() && obstacles[likely].name == name) return likely;
-  const auto it = std::ranges::find(obstacles, name, &Obstacle::name);
-  if (it == obstacles.end()) return {};
-  return static_cast<size_t>(it - obstacles.begin());
+                           size_t* likely) {
+  for (size_t tried = 0; tried < obstacles.size(); ++tried) {
+    const size_t k = (*likely + tried) % obstacles.size();
+    if (obstacles[k].name != name) continue;
+    *likely = k + 1;
+    return k;
+  }
+  return {};
 }
 
 bool SameGoal(const GoalRegion& a, const GoalRegion& b) {
@@ -74,9 +78,10 @@ WorldUpdate Updated(const World& last, const PastWorlds& past, World frame,
   for (const Contradiction& one : update.contradictions) {
     world.sound_since = std::max(world.sound_since, one.version + 1);
   }
+  size_t likely = 0;
   for (size_t i = 0; i < world.scene.obstacles.size(); ++i) {
     Obstacle& now = world.scene.obstacles[i];
-    const std::optional<size_t> old = Find(last.scene.obstacles, now.name, i);
+    const std::optional<size_t> old = Find(last.scene.obstacles, now.name, &likely);
     if (!old) continue;
     const World::Stay& stay = last.stays[*old];
     const double drifted = options.drift * (now.motion.measured_at - stay.since);
@@ -117,6 +122,8 @@ World Measure(const TrueWorld& truth, double t, const LiveOptions& options,
   frame.goal = truth.GoalAt(t);
   frame.course = truth.CourseAt(t);
   frame.scene = truth.scene().Emptied();
+  frame.scene.obstacles.reserve(truth.scene().obstacles.size());
+  frame.stays.reserve(truth.scene().obstacles.size());
   for (size_t i = 0; i < truth.scene().obstacles.size(); ++i) {
     // Drawn for all, so that what one obstacle does changes nothing for the others.
     const Eigen::Vector3d off = InBall(options.sensing.noise, random);

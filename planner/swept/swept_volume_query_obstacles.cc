@@ -36,12 +36,15 @@ void SweptVolumeQuery::Prepared::BeMesh(const TriangleMesh& mesh) {
 
 SweptVolumeQuery::Prepared SweptVolumeQuery::Prepare(const Obstacle& obstacle) {
   Prepared prepared;
-  const auto round = [&prepared](const auto& of, const RoundBody& body) {
-    prepared.around = Around(BodyOf(of));
+  const auto box_around = [](const auto& of) {
+    return OrientedBox{.center = Vector3d::Zero(), .half = HalfExtents(of)};
+  };
+  const auto round = [&](const auto& of, const RoundBody& body) {
+    prepared.around = box_around(of);
     prepared.shape = body;
   };
   if (const auto* box = std::get_if<Box>(&obstacle.shape)) {
-    prepared.around = Around(BodyOf(*box));
+    prepared.around = box_around(*box);
   } else if (const auto* sphere = std::get_if<Sphere>(&obstacle.shape)) {
     round(*sphere, {.ball_radius = sphere->radius});
   } else if (const auto* cylinder = std::get_if<Cylinder>(&obstacle.shape)) {

@@ -68,7 +68,7 @@ World Draw(int version, std::mt19937_64& random) {
     if (i == 3) place.x() += 0.3 * t;
     if (i == 3) bar.motion.speed = 0.3;
     place += Eigen::Vector3d(side(random), side(random), side(random));
-    if (i == 4 && version / 300 % 2 == 1) continue;
+    if (i == 0 && version / 300 % 2 == 1) continue;
     world.scene.obstacles.push_back(bar);
   }
   if (version / 400 % 2 == 1) world.areas.push_back(0);

@@ -52,6 +52,32 @@ Scene RandomRoom(int count, std::mt19937* random) {
   return scene;
 }
 
+// Found without making the body of a shape, they are its body's, to the bit.
+TEST(ShapeBounds, AreThoseOfTheBody) {
+  std::mt19937 random(20);
+  for (const Obstacle& obstacle : RandomRoom(500, &random).obstacles) {
+    const auto compare = [&](const auto& shape) {
+      const ConvexBody body = BodyOf(shape);
+      const Eigen::AlignedBox3d bounds = BoundsOf(obstacle.shape, obstacle.X_WO);
+      const Eigen::AlignedBox3d of_body = BoundsOf(body, obstacle.X_WO);
+      EXPECT_EQ(bounds.min(), of_body.min()) << obstacle.name;
+      EXPECT_EQ(bounds.max(), of_body.max()) << obstacle.name;
+      const Vector3d half = HalfExtents(shape);
+      for (int axis = 0; axis < 3; ++axis) {
+        EXPECT_EQ(half[axis], Support(body, Vector3d::Unit(axis))) << obstacle.name;
+      }
+    };
+    if (const auto* box = std::get_if<Box>(&obstacle.shape)) compare(*box);
+    if (const auto* cylinder = std::get_if<Cylinder>(&obstacle.shape)) compare(*cylinder);
+    if (const auto* capsule = std::get_if<Capsule>(&obstacle.shape)) compare(*capsule);
+    if (const auto* sphere = std::get_if<Sphere>(&obstacle.shape)) compare(*sphere);
+  }
+  EXPECT_THROW(HalfExtents(Box{{0.1, 0.0, 0.1}}), std::logic_error);
+  EXPECT_THROW(HalfExtents(Cylinder{0.1, -1.0}), std::logic_error);
+  EXPECT_THROW(HalfExtents(Capsule{std::nan(""), 1.0}), std::logic_error);
+  EXPECT_THROW(HalfExtents(Sphere{0.0}), std::logic_error);
+}
+
 TEST(CollisionWorld, NearestIsTheSmallestSeparationOfAll) {
   std::mt19937 random(21);
   int found = 0;
