@@ -3,6 +3,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "planner/scene/shape_extents.h"
 #include "wpg/check.h"
 
 namespace halfstep {

@@ -56,13 +56,6 @@ inline const ConvexBody& BodyOf(const ConvexBody& body) { return body; }
 /// The mesh itself.
 inline const TriangleMesh& BodyOf(const TriangleMesh& mesh) { return mesh; }
 
-/// Half the edges of the smallest box along the axes of its frame that holds a shape, both centred
-/// at the origin [m]. The preconditions are those of BodyOf.
-Eigen::Vector3d HalfExtents(const Box& box);
-Eigen::Vector3d HalfExtents(const Sphere& sphere);      ///< of a ball
-Eigen::Vector3d HalfExtents(const Cylinder& cylinder);  ///< of a cylinder
-Eigen::Vector3d HalfExtents(const Capsule& capsule);    ///< of a capsule
-
 /// A distance from the origin of its frame that no point of a shape exceeds [m]. The preconditions
 /// are those of BodyOf.
 double RadiusAboutOrigin(const Shape& shape);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "planner/scene/shape_extents.h"
 #include "planner/swept/swept_volume_query.h"
 #include "wpg/check.h"
 #include "wpg/nth.h"

@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "planner/scene/shape_extents.h"
 #include "planner/scene/solid_body.h"
 #include "tests/draws.h"
 #include "tests/planner/blocks_ground.h"
