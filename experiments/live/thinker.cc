@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "experiments/live/prepared_world.h"
+
 namespace halfstep {
 
 const PreparedWorld& PreparedWorlds::Of(const std::shared_ptr<const World>& world) {
