@@ -45,7 +45,7 @@ Episode EpisodeLoop::Run(const std::array<Foothold, 2>& start) {
     Sense(now);
     if (thinking_) {
       // Not twice in a row, or a world that never rests would never let the walk be smoothed.
-      if (!hurried_ && !hurried_before_ && DiffersClearly(*asked_about_, *world_)) {
+      if (!hurried_ && !hurried_before_ && Differs(asked_about_, &from_asked_)) {
         thinker_.Hurry(now);
         hurried_ = true;
       }
@@ -121,14 +121,21 @@ void EpisodeLoop::Begins(int half_step) {
   again_ = true;  // more junctions are near
 }
 
-bool EpisodeLoop::NeedsWork(double now) const {
+bool EpisodeLoop::Differs(const std::shared_ptr<const World>& from, Difference* known) const {
+  if (known->from != from || known->to != world_) {
+    *known = {from, world_, DiffersClearly(*from, *world_)};
+  }
+  return known->clear;
+}
+
+bool EpisodeLoop::NeedsWork(double now) {
   if (held_ || !awaited_.empty()) return false;
   if (again_ || world_->sound_since > checked_->version) return true;
   if (world_->version == checked_->version) return false;
   if (stuck_) {
-    return now >= asked_ + retry_ || (now >= asked_ + kRetry && DiffersClearly(*checked_, *world_));
+    return now >= asked_ + retry_ || (now >= asked_ + kRetry && Differs(checked_, &from_checked_));
   }
-  if (DiffersClearly(*checked_, *world_)) return true;
+  if (Differs(checked_, &from_checked_)) return true;
   // What was proved runs out, for a half-step that begins soon.
   const SuperposedWalk& walk = executor_->walk();
   const int next = std::min(executor_->begun() + 1, walk.num_half_steps() - 1);
@@ -141,7 +148,7 @@ void EpisodeLoop::Ask(double now) {
   // against the one that was looked at last stays. Where no way was found, another noise may help.
   const bool same = !stuck_ && checked_->version >= world_->sound_since &&
                     checked_->valid_until() == std::numeric_limits<double>::infinity() &&
-                    !DiffersClearly(*checked_, *world_);
+                    !Differs(checked_, &from_checked_);
   asked_about_ = same ? checked_ : world_;
   const int less = executor_->Forget();
   smoothed_.erase(smoothed_.begin(), smoothed_.begin() + less);

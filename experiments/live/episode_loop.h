@@ -37,7 +37,14 @@ class EpisodeLoop {
   // Why the robot cannot begin the next half-step; "": it can.
   std::string Awaited(double now) const;
   void Begins(int half_step);
-  bool NeedsWork(double now) const;
+  bool NeedsWork(double now);
+  // DiffersClearly of a world that was looked at and the latest one. Found once for both: that
+  // takes a look at every obstacle.
+  struct Difference {
+    std::shared_ptr<const World> from = {}, to = {};
+    bool clear = false;
+  };
+  bool Differs(const std::shared_ptr<const World>& from, Difference* known) const;
   void Ask(double now);
   void Take(const Proposal& proposal, double now);
   void HandOver(const Proposal& proposal, double now);
@@ -78,6 +85,7 @@ class EpisodeLoop {
   std::shared_ptr<const World> asked_about_;
   // What it is to do next.
   std::shared_ptr<const World> checked_;
+  Difference from_asked_, from_checked_;
   bool again_ = true, stuck_ = false;
   double retry_ = 0.0;  // until the next search when one found no way [s]
   int tries_ = 0;       // to shorten the way
