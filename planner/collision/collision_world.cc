@@ -59,6 +59,8 @@ CollisionWorld::CollisionWorld(const Scene& scene)
     : has_solids_(!scene.ground->Solids().empty()),
       shapes_(std::make_shared<Shapes>(scene.obstacles.size() + scene.ground->Solids().size())) {
   std::vector<Eigen::AlignedBox3d> boxes;
+  boxes.reserve(shapes_->once.size());
+  entries_.reserve(shapes_->once.size());
   for (const Obstacle& obstacle : scene.obstacles) {
     Add(obstacle, std::numeric_limits<double>::infinity(), &boxes);
   }

@@ -49,6 +49,10 @@ SweptVolumeQuery::SweptVolumeQuery(const SweptVolumes& volumes,
   }
   CheckPlaces(scene, until);
   std::vector<ObstaclePlace> all;
+  const size_t least = scene.obstacles.size() + ground_->Solids().size();
+  all.reserve(least);
+  places_.reserve(least);
+  only_places_.reserve(scene.obstacles.size());
   for (const Obstacle& obstacle : scene.obstacles) {
     only_places_.push_back(obstacle.motion.waypoints.empty() ? static_cast<int>(all.size()) : -1);
     const Prepared prepared = Prepare(obstacle);
@@ -65,6 +69,7 @@ SweptVolumeQuery::SweptVolumeQuery(const SweptVolumes& volumes,
     places_.back().top = solid.top;
   }
   std::vector<Upright> cylinders;
+  cylinders.reserve(all.size());
   for (int i = 0; i < std::ssize(all); ++i) cylinders.push_back(Move(i, Nth(all, i).X_WO));
   PlantTree(cylinders);
 }

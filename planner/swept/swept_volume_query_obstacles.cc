@@ -68,6 +68,7 @@ SweptVolumeQuery::Prepared SweptVolumeQuery::Prepare(const Obstacle& obstacle) {
 void SweptVolumeQuery::PlantTree(const std::vector<Upright>& cylinders) {
   constexpr int32_t kLeaf = 64;  // so many are looked at as fast as a few nodes
   std::vector<Eigen::AlignedBox3d> boxes;
+  boxes.reserve(cylinders.size());
   for (const Upright& cylinder : cylinders) {
     const Vector3d half(cylinder.radius, cylinder.radius, cylinder.half_height);
     boxes.emplace_back(cylinder.center - half, cylinder.center + half);

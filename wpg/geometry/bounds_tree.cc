@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "wpg/check.h"
 #include "wpg/nth.h"
@@ -25,27 +26,22 @@ BoundsTree::BoundsTree(const std::vector<Eigen::AlignedBox3d>& boxes, int32_t le
   };
   nodes.emplace_back();
   std::vector<Task> tasks = {{0, 0, static_cast<int32_t>(boxes.size())}};
+  std::vector<std::pair<double, int32_t>> keys;  // along an axis, and the item
   while (!tasks.empty()) {
     const Task task = tasks.back();
     tasks.pop_back();
     const auto begin = order.begin() + task.first, end = begin + task.count;
-    Eigen::AlignedBox3d around, of_middles;
-    for (auto i = begin; i != end; ++i) {
-      around.extend(Nth(boxes, *i));
-      of_middles.extend(Nth(middles, *i));
-    }
-    Node node{.center = around.center(), .half = {}, .first = task.first, .count = task.count};
-    // From the rounded centre, so that the box holds both ends.
-    node.half = (around.max() - node.center).cwiseMax(node.center - around.min()) * (1 + 1e-12);
+    Node node{.center = {}, .half = {}, .first = task.first, .count = task.count};
     if (task.count > leaf) {
+      Eigen::AlignedBox3d of_middles;
+      for (auto i = begin; i != end; ++i) of_middles.extend(Nth(middles, *i));
       int axis = 0;
       of_middles.sizes().maxCoeff(&axis);
       const int32_t below = task.count / 2;
-      std::nth_element(begin, begin + below, end, [&](int32_t a, int32_t b) {
-        const double at_a = Nth(middles, a)[axis];
-        const double at_b = Nth(middles, b)[axis];
-        return at_a < at_b || (at_a == at_b && a < b);
-      });
+      keys.clear();
+      for (auto i = begin; i != end; ++i) keys.emplace_back(Nth(middles, *i)[axis], *i);
+      std::nth_element(keys.begin(), keys.begin() + below, keys.end());
+      std::ranges::transform(keys, begin, &std::pair<double, int32_t>::second);
       node.left = static_cast<int32_t>(nodes.size());
       nodes.emplace_back();
       nodes.emplace_back();
@@ -53,6 +49,22 @@ BoundsTree::BoundsTree(const std::vector<Eigen::AlignedBox3d>& boxes, int32_t le
       tasks.push_back({node.left + 1, task.first + below, task.count - below});
     }
     Nth(nodes, task.node) = node;
+  }
+  // Children before their parents.
+  std::vector<Eigen::AlignedBox3d> around(nodes.size());
+  for (size_t n = nodes.size(); n-- > 0;) {
+    Node& node = nodes[n];
+    if (node.left >= 0) {
+      around[n] = Nth(around, node.left).merged(Nth(around, node.left + 1));
+    } else {
+      for (int32_t i = node.first; i < node.first + node.count; ++i) {
+        around[n].extend(Nth(boxes, Nth(order, i)));
+      }
+    }
+    node.center = around[n].center();
+    // From the rounded centre, so that the box holds both ends.
+    node.half =
+        (around[n].max() - node.center).cwiseMax(node.center - around[n].min()) * (1 + 1e-12);
   }
 }
 
