@@ -57,17 +57,33 @@ void StateBuckets::Remove(int index, const StepState& state) {
   --Nth(sizes_, Index(state.support));
 }
 
+// How far what is in a row of cells is from a coordinate at least [m]. Beyond the area cells have
+// no end.
+double StateBuckets::Gap(int cell, int axis, double at) const {
+  constexpr double kRounding = 1e-9;  // [m]
+  const double from = area_.min()[axis] + cell * edge_;
+  const double below = cell > 0 ? from - at : 0.0;
+  const double above = cell + 1 < count_[axis] ? at - (from + edge_) : 0.0;
+  return std::max({below - kRounding, above - kRounding, 0.0});
+}
+
 int StateBuckets::FindNearest(const Pose2& X_W, Side support, bool with_yaw) const {
   if (size(support) == 0) return -1;
   const Eigen::Vector2i center = CellOf(X_W);
   int nearest = -1;
   double least = std::numeric_limits<double>::infinity();
+  double least2 = least;  // squared, and a little more
   const auto visit = [&](int x, int y) {
     if (x < 0 || y < 0 || x >= count_.x() || y >= count_.y()) return;
+    const double across = Gap(x, 0, X_W.x), along = Gap(y, 1, X_W.y);
+    if (across * across + along * along > least2) return;
     for (const Entry& entry : At({x, y}, support)) {
+      const double dx = entry.X_WS.x - X_W.x, dy = entry.X_WS.y - X_W.y;
+      if (dx * dx + dy * dy > least2) continue;
       const double distance = StateDistance(entry.X_WS, X_W, with_yaw);
       if (distance < least || (distance == least && entry.index < nearest)) {
         least = distance;
+        least2 = least * least * (1.0 + 1e-9) + 1e-12;
         nearest = entry.index;
       }
     }

@@ -37,6 +37,7 @@ class StateBuckets {
     Pose2 X_WS;
   };
   Eigen::Vector2i CellOf(const Pose2& X_W) const;  // clamped to the area
+  double Gap(int cell, int axis, double at) const;
   std::vector<Entry>& At(const Eigen::Vector2i& cell, Side support);
   const std::vector<Entry>& At(const Eigen::Vector2i& cell, Side support) const;
 

@@ -2,12 +2,17 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
+#include <vector>
 
 #include "planner/search/footstep_astar.h"
 #include "planner/search/least_cost.h"
 #include "planner/search/plan_search.h"
+#include "planner/search/state_buckets.h"
 #include "planner/search/step_search.h"
+#include "tests/draws.h"
 #include "tests/planner/flat_world.h"
 
 namespace halfstep {
@@ -18,6 +23,30 @@ PlanResult PlanBest(PlanRequest request, double effort, std::uint64_t seed = 1) 
   request.stop = AnyOf({WhenPlannedAfter(effort), AfterEffort(10.0)});
   std::mt19937_64 random(seed);
   return BestPlanner({}, {}).Plan(request, random);
+}
+
+// Also from far away and of states beyond the area; the first of equals.
+TEST(StateBuckets, FindTheNearestOfAll) {
+  std::mt19937 random(1);
+  for (int trial = 0; trial < 20; ++trial) {
+    const double reach = trial % 2 == 0 ? 1.0 : 1.5;  // of states
+    StateBuckets buckets({Eigen::Vector2d(-1.0, -0.6), Eigen::Vector2d(1.0, 0.6)});
+    std::vector<Pose2> states;
+    for (int i = 0; i < 60; ++i) {
+      const Pose2 X_WS{Uniform(&random, -reach, reach), Uniform(&random, -reach, reach),
+                       Uniform(&random, -3.0, 3.0)};
+      states.push_back(i % 10 == 9 ? states.back() : X_WS);
+      buckets.Insert(i, {Foothold(states.back(), 0.0), Side::kLeft});
+    }
+    for (int k = 0; k < 200; ++k) {
+      const double far = k % 4 == 0 ? 1000.0 : k % 4 == 1 ? 3.0 : 1.0;
+      const Pose2 X_W{Uniform(&random, -far, far), Uniform(&random, -far, far),
+                      Uniform(&random, -3.0, 3.0)};
+      const auto distance = [&](const Pose2& X_WS) { return StateDistance(X_WS, X_W, k % 2 == 0); };
+      const auto nearest = std::ranges::min_element(states, {}, distance);
+      EXPECT_EQ(buckets.FindNearest(X_W, Side::kLeft, k % 2 == 0), nearest - states.begin());
+    }
+  }
 }
 
 // Along plans of every cost, what is left of a plan never costs less than the bound.
