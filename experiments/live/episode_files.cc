@@ -81,7 +81,7 @@ void WriteEpisode(const Episode& episode, const LiveConfig& config, const Place&
   }
   for (size_t k = 0; k < episode.walks.size(); ++k) {
     for (const EpisodeTable& table : WalkTables(episode, k)) {
-      WriteCsv(table.name, table.file, folder);
+      WriteCsvOfMany(table.name, table.file, folder);
     }
   }
   if (!episode.walks.empty()) WriteTrajectory(episode, config, place.robot, folder);
