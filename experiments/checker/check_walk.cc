@@ -106,18 +106,20 @@ class WalkProof {
 };
 
 // What is known without looking at intervals: at most one foot is in the air, and how long ZMPs
-// go from foot to foot.
+// go from foot to foot, of the half-steps that are known.
 void AddTimes(const WalkMotion& motion, double demanded, TrajectoryCheck* check) {
   const std::vector<WalkMotion::Flight>& flights = motion.flights();
   for (size_t j = 0; j + 1 < flights.size(); ++j) {
     const double apart = checker::Below(flights[j + 1].begin - flights[j].end);
+    const size_t step = motion.first() / 2 + j;
     check->findings.push_back({.kind = Kind::kContact,
-                               .subject = Formatted("steps %zu and %zu", j + 1, j + 2),
+                               .subject = Formatted("steps %zu and %zu", step + 1, step + 2),
                                .proved = apart > 0.0,
                                .least = apart,
                                .at = flights[j].end});
   }
-  for (size_t i = 0; demanded != verify::kNotDemanded && i < motion.size(); ++i) {
+  if (demanded == verify::kNotDemanded) return;
+  for (size_t i = motion.first(); i < motion.size(); ++i) {
     const auto [start, shift] = motion.StartAndShift(i);
     check->findings.push_back({.kind = Kind::kDoubleSupport,
                                .subject = Formatted("half-step %zu", i + 1),
@@ -151,7 +153,7 @@ Kind KindOf(verify::Family family) {
   return kKinds[family];
 }
 
-TrajectoryCheck CheckWalk(const WalkTables& tables, const RobotModel& robot, const Scene& scene,
+TrajectoryCheck CheckWalk(const WalkMotion& motion, const RobotModel& robot, const Scene& scene,
                           const verify::CertificateText& certificate, double crouch,
                           const std::function<bool(double done)>& progress, ProofHints* hints,
                           double from) {
@@ -159,7 +161,6 @@ TrajectoryCheck CheckWalk(const WalkTables& tables, const RobotModel& robot, con
   TrajectoryCheck check;
   ProofHints found;
   if (hints == nullptr) hints = &found;
-  const WalkMotion motion(tables);
   WalkStatements statements(robot, scene, certificate);
   const auto demanded = [&](verify::Family family) { return Nth(certificate.demanded, family); };
   AddTimes(motion, demanded(verify::kDoubleSupport), &check);

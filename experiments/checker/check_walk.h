@@ -20,7 +20,7 @@ namespace halfstep::checker {
 /// `progress(done)`, done ∈ [0, 1], says whether to go on. `hints`: where directions that were
 /// found are noted, or those that are told. Throws InputError for walks, robots and scenes of which
 /// nothing can be said here: offset legs, tubes, maps. Source: experiments/check.md.
-TrajectoryCheck CheckWalk(const WalkTables& tables, const RobotModel& robot, const Scene& scene,
+TrajectoryCheck CheckWalk(const WalkMotion& motion, const RobotModel& robot, const Scene& scene,
                           const verify::CertificateText& certificate, double crouch,
                           const std::function<bool(double done)>& progress = {},
                           ProofHints* hints = nullptr, double from = 0.0);

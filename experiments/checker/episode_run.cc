@@ -1,6 +1,9 @@
 // What an episode's records say was walked.
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <optional>
+#include <set>
 
 #include "experiments/checker/walk_run.h"
 #include "experiments/checker/walk_statements.h"
@@ -22,18 +25,20 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kNearer = 1e-3, kAtRest = 1e-9;  // [m], [s]
+constexpr double kTwiceTold = 1e-9;               // numbers of two tables [m, rad, s]
 
 // What a half-step is held to that begins at rest nearer to obstacles than demanded: from these it
 // keeps what it has when it begins, less kNearer, and at least 0. To demand less of an obstacle is
 // said here as a smaller error.
-Scene FromRest(const WalkRun& run, const StopBranch& branch, Scene world) {
-  const WalkTables cut = run.tables.CutAfter(branch.last);
-  const Interval before = branch.last > 0 ? cut.starts[branch.last - 1] +
-                                                Interval(cut.half_steps[branch.last - 1].duration)
-                                          : Interval(0.0);
-  if (before.hi > branch.from + kAtRest) {
-    throw InputError(
-        {Formatted("half-step %zu begins near an obstacle, but not from rest", branch.last + 1)});
+Scene FromRest(const WalkRun& run, const WalkMotion& motion, const StopBranch& branch,
+               Scene world) {
+  if (branch.last > 0) {
+    const Interval before = run.tables.starts[branch.last - 1] +
+                            Interval(run.tables.half_steps[branch.last - 1].duration);
+    if (before.hi > branch.from + kAtRest) {
+      throw InputError(
+          {Formatted("half-step %zu begins near an obstacle, but not from rest", branch.last + 1)});
+    }
   }
   verify::CertificateText distances;
   distances.demanded.fill(verify::kNotDemanded);
@@ -41,10 +46,9 @@ Scene FromRest(const WalkRun& run, const StopBranch& branch, Scene world) {
   WalkStatements statements(run.robot, world, distances);
   const std::array<LegSolver, 2> solvers = {LegSolver(run.robot.legs[0]),
                                             LegSolver(run.robot.legs[1])};
-  const WalkMotion motion(cut);
-  WalkState state(run.robot, solvers, motion,
-                  Interval(run.robot.waist_height) - Interval(run.crouch), branch.from,
-                  branch.from);
+  const WalkMotion cut = motion.CutAfter(branch.last, branch.from);
+  WalkState state(run.robot, solvers, cut, Interval(run.robot.waist_height) - Interval(run.crouch),
+                  branch.from, branch.from);
   const double demanded = run.certificate.demanded[verify::kClearance];
   std::vector<double> kept(world.obstacles.size(), demanded);
   for (WalkStatement& statement : statements.all()) {
@@ -59,7 +63,22 @@ Scene FromRest(const WalkRun& run, const StopBranch& branch, Scene world) {
   return world;
 }
 
+bool Near(double a, double b) { return std::abs(a - b) <= kTwiceTold; }
+
+// Whether a sole stands where the footsteps say that it does, with `num_steps` steps taken.
+bool StandsThere(const verify::FootstepRow& sole, const std::vector<verify::FootstepRow>& footsteps,
+                 size_t num_steps) {
+  for (size_t row = 2 + num_steps; row-- > 0;) {
+    const verify::FootstepRow& is = footsteps[row];
+    if (is.foot != sole.foot) continue;
+    return Near(is.X_WF.x, sole.X_WF.x) && Near(is.X_WF.y, sole.X_WF.y) &&
+           Near(is.X_WF.yaw, sole.X_WF.yaw) && Near(is.z, sole.z);
+  }
+  return false;
+}
+
 // The tables of the last walk, whole: what is before a walk's own is that of the walk before it.
+// Half-steps begin when half_steps.csv says, which is to agree with overlaps.csv.
 WalkTables LastWalk(const verify::EpisodeText& episode) {
   WalkTables whole;
   for (size_t k = 0; k < episode.walks.size(); ++k) {
@@ -76,6 +95,11 @@ WalkTables LastWalk(const verify::EpisodeText& episode) {
       refuse("/overlaps.csv: has not one overlap for each two half-steps");
     }
     if (walk.footsteps.size() < 2) refuse("/footsteps.csv: does not say where the soles stand");
+    for (size_t row = 0; first > 0 && row < 2; ++row) {
+      if (StandsThere(walk.footsteps[row], whole.footsteps, first / 2)) continue;
+      refuse(Formatted("/footsteps.csv:%zu: the foot does not stand there in the walk before it",
+                       row + 2));
+    }
     // Of a walk that goes on, where both soles stand is known.
     const auto begin = walk.footsteps.begin() + (first > 0 ? 2 : 0);
     whole.footsteps.resize(first > 0 ? 2 + first / 2 : 0);
@@ -84,10 +108,16 @@ WalkTables LastWalk(const verify::EpisodeText& episode) {
     whole.half_steps.insert(whole.half_steps.end(), walk.half_steps.begin(), walk.half_steps.end());
     whole.starts.resize(first);
     for (size_t i = first; i < whole.half_steps.size(); ++i) {
-      whole.starts.push_back(i == 0 ? Interval(0.0)
-                                    : whole.starts[i - 1] +
-                                          Interval(whole.half_steps[i - 1].duration) -
-                                          Interval(walk.overlaps[i - first + before - 1]));
+      double start = 0.0;
+      if (i > 0) {
+        const verify::HalfStepRow& last = whole.half_steps[i - 1];
+        start = last.start + last.duration - walk.overlaps[i - first + before - 1];
+      }
+      if (!Near(start, whole.half_steps[i].start)) {
+        refuse(Formatted("/half_steps.csv: half-step %zu does not begin where overlaps.csv has it",
+                         i + 1));
+      }
+      whole.starts.emplace_back(whole.half_steps[i].start);
     }
   }
   return whole;
@@ -127,6 +157,11 @@ WalkRun ReadEpisodeRun(const std::string& folder, const std::string& robot_file,
   run.tables.planned = half_step.form;
   run.tables.com_height = Interval(run.robot.com_height) - Interval(run.crouch);
   run.tables.crouch = run.crouch;
+  std::set<int> near;
+  for (const verify::EventRow& event : episode.events) {
+    if (event.what == "near") near.insert(event.half_step);
+  }
+  std::optional<WalkMotion> motion;
   std::vector<std::shared_ptr<const Scene>> worlds(episode.worlds.size());
   for (size_t j = 0; j < episode.begun.size(); ++j) {
     const verify::BegunRow& begun = episode.begun[j];
@@ -143,10 +178,9 @@ WalkRun ReadEpisodeRun(const std::string& folder, const std::string& robot_file,
     }
     StopBranch branch{Formatted("stopped after half-step %zu, in world %zu", j + 1, world), j,
                       run.tables.starts[j].lo, worlds[world]};
-    if (std::ranges::any_of(episode.events, [&](const verify::EventRow& event) {
-          return event.what == "near" && event.half_step == begun.half_step;
-        })) {
-      branch.world = std::make_shared<const Scene>(FromRest(run, branch, *worlds[world]));
+    if (near.contains(begun.half_step)) {
+      if (!motion) motion.emplace(run.tables);
+      branch.world = std::make_shared<const Scene>(FromRest(run, *motion, branch, *worlds[world]));
     }
     run.branches.push_back(std::move(branch));
   }

@@ -32,7 +32,7 @@ struct Standing {
 std::vector<Standing> StandingFrom(const WalkMotion& motion, double from) {
   std::vector<Standing> all;
   for (size_t side = 0; side < 2; ++side) {
-    double since = 0.0, until = kInfinity;
+    double since = motion.StandsSince(side), until = kInfinity;
     size_t place = side;
     const auto add = [&] {
       if (until < from) return;
@@ -50,7 +50,7 @@ std::vector<Standing> StandingFrom(const WalkMotion& motion, double from) {
       until = flight.begin;
       add();
       since = std::min(flight.end, motion.end());
-      place = 2 + j;
+      place = 2 + motion.first() / 2 + j;
       until = flight.lands ? kInfinity : -kInfinity;
     }
     add();

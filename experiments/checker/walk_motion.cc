@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wpg/check.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/text.h"
 #include "wpg/robot/gravity.h"
 
 namespace halfstep::checker {
 namespace {
+
+constexpr double kTogether = 1e-9;  // times that are no farther apart are the same [s]
 
 // A sole.
 struct Place {
@@ -46,14 +49,6 @@ bool CanBe(const verify::FormColumns& form) {
 }
 
 }  // namespace
-
-WalkTables WalkTables::CutAfter(size_t last) const {
-  WalkTables cut = *this;
-  cut.half_steps.resize(last + 1);
-  cut.starts.resize(last + 1);
-  cut.footsteps.resize(last / 2 + 3);
-  return cut;
-}
 
 WalkMotion::WalkMotion(const WalkTables& tables) {
   const auto& [footsteps, rows, starts, planned, com_height, crouch] = tables;
@@ -102,7 +97,6 @@ WalkMotion::WalkMotion(const WalkTables& tables) {
              raised({std::min(z.lo, w.lo), std::min(z.hi, w.hi)}, rise));
   };
   add_standing(0.0);
-  Place from;  // of the foot that swings
   for (size_t i = 0; i < rows.size(); ++i) {
     const verify::HalfStepRow& row = rows[i];
     const bool up = i % 2 == 0;
@@ -131,23 +125,19 @@ WalkMotion::WalkMotion(const WalkTables& tables) {
          up ? Profile::Step(rise_begin, rise_end)
             : Profile::Step(Interval(1.0) - rise_end, Interval(1.0) - rise_begin),
          Pendulum::Of(omega_squared * Square(duration), shift, form.zmp_bump_ramp)});
-    const auto later = [](const Interval& a, const Interval& b) { return a.lo > b.lo + 1e-9; };
+    const auto later = [](const Interval& a, const Interval& b) { return a.lo > b.lo + kTogether; };
     if (i > 0 && (later(steps_[i - 1].start, start) || later(steps_[i - 1].end, steps_[i].end))) {
       Refuse(i, "begins or ends before the one before it");
     }
-    const HalfStep& now = steps_.back();
-    const auto time = [&](const Interval& sigma) { return start + sigma * duration; };
     if (up) {
       const Interval aside = swing == 0 ? 1.0 : -1.0;
       const Place& on = soles[support];
       const auto [x, y] = on.Of(form.via_along, aside * Interval(form.via_lateral));
-      from = soles[swing];
       soles[swing] = {x, y, on.z + Interval(row.height_scale) * Interval(footstep.via_height),
                       on.yaw};
       add_rest(on.Of(0.0, aside * Interval(row.support_point)), on.yaw,
                raised(on.z, higher(footstep)));
-      flights_.push_back({swing, time(now.height.span().first).lo, now.end.hi,
-                          time(now.way.span().first).lo, now.end.hi, from.z.Middle(), false});
+      flights_.push_back(FlightOf(steps_.back(), rests_[i]));
       continue;
     }
     const Pose2 &X_WF = footstep.X_WF, &move = form.footstep;
@@ -156,17 +146,33 @@ WalkMotion::WalkMotion(const WalkTables& tables) {
     soles[swing] = {x, y, at.z, at.yaw + Interval(move.yaw)};
     add_standing(higher(footstep));
     WalkMotion::Flight& flight = flights_.back();
-    flight.end = time(now.height.span().second).hi;
+    const HalfStep& now = steps_.back();
+    flight.end = now.At(now.height.span().second).hi;
     flight.moves_from = std::min(flight.moves_from, start.lo);
-    flight.moves_to = std::max(time(now.way.span().second).hi, flight.moves_to);
+    flight.moves_to = std::max(now.At(now.way.span().second).hi, flight.moves_to);
     flight.landing = footstep.z;
     flight.lands = true;
+    // Else the foot would move where it stands.
+    if (flight.moves_from < flight.begin - kTogether || flight.moves_to > flight.end + kTogether) {
+      Refuse(i, "begins before the foot is raised, or lands before it is");
+    }
   }
+  double ended = 0.0;
+  for (const HalfStep& step : steps_) ended_.push_back(ended = std::max(ended, step.end.hi));
+  since_.emplace_back();
+  for (const Flight& flight : flights_) {
+    since_.push_back(since_.back());
+    since_.back()[flight.side] = std::min(flight.end, end());
+  }
+  FindKnots();
+}
+
+void WalkMotion::FindKnots() {
   knots_ = {0.0, end()};
   for (const HalfStep& step : steps_) {
     for (const Profile* profile : {&step.yaw, &step.way, &step.height, &step.rise}) {
       for (const Interval& sigma : {profile->span().first, profile->span().second}) {
-        knots_.push_back((step.start + sigma * step.duration).Middle());
+        knots_.push_back(step.At(sigma).Middle());
       }
     }
   }
@@ -178,16 +184,51 @@ WalkMotion::WalkMotion(const WalkTables& tables) {
   knots_.erase(std::unique(knots_.begin(), knots_.end()), knots_.end());
 }
 
+WalkMotion::Flight WalkMotion::FlightOf(const HalfStep& up, const Rest& before) {
+  return {up.swing,  up.At(up.height.span().first).lo,
+          up.end.hi, up.At(up.way.span().first).lo,
+          up.end.hi, before[kSole + 4 * up.swing + 2].Middle(),
+          false};
+}
+
+WalkMotion WalkMotion::CutAfter(size_t last, double from) const {
+  HALFSTEP_CHECK(first_ == 0 && last < size(), "half-step " << last << " of " << size());
+  const auto lasts = std::ranges::lower_bound(ended_, from) - ended_.begin();
+  const size_t step = static_cast<size_t>(lasts) / 2, begin = step > 0 ? step - 1 : 0;
+  HALFSTEP_CHECK(2 * begin <= last, "half-step " << last << " ends before " << from);
+  const auto part = [](const auto& of, size_t i, size_t end) {
+    return std::vector(of.begin() + static_cast<std::ptrdiff_t>(i),
+                       of.begin() + static_cast<std::ptrdiff_t>(end));
+  };
+  WalkMotion cut;
+  cut.first_ = 2 * begin;
+  cut.steps_ = part(steps_, cut.first_, last + 1);
+  cut.ended_ = part(ended_, cut.first_, last + 1);
+  cut.rests_ = part(rests_, cut.first_, last + 2);
+  cut.flights_ = part(flights_, begin, last / 2 + 1);
+  cut.since_ = {since_[begin]};
+  if (last % 2 == 0) cut.flights_.back() = FlightOf(steps_[last], rests_[last]);
+  cut.FindKnots();
+  return cut;
+}
+
+const WalkMotion::Flight* WalkMotion::FlightAt(double t) const {
+  const auto after = std::ranges::upper_bound(flights_, t, {}, &Flight::begin);
+  if (after == flights_.begin() || std::prev(after)->end < t) return nullptr;
+  return &*std::prev(after);
+}
+
 std::array<Interval, 2> WalkMotion::StartAndShift(size_t half_step) const {
-  return {steps_[half_step].start, steps_[half_step].shift};
+  const HalfStep& of = steps_[half_step - first_];
+  return {of.start, of.shift};
 }
 
 WalkNumbers WalkMotion::On(double from, double to) const {
   const double m = 0.5 * from + 0.5 * to;
   const double h = Interval(from, to).FarthestFrom(m);
   // Those that have ended have brought everything to where the next one begins.
-  size_t first = 0;
-  while (first < steps_.size() && steps_[first].end.hi < from) ++first;
+  const auto lasts = std::ranges::lower_bound(ended_, from) - ended_.begin();
+  const auto first = static_cast<size_t>(lasts);
   WalkNumbers numbers;
   for (size_t k = 0; k < kNumWalkNumbers; ++k) numbers[k] = rests_[first][k];
   // Starts are in order but for rounding.

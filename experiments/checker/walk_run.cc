@@ -148,9 +148,9 @@ TrajectoryCheck CheckRun(const WalkRun& run, const std::function<bool(double don
   std::map<std::pair<TrajectoryFinding::Kind, std::string>, TrajectoryFinding> worst;
   const double parts = static_cast<double>(run.branches.size() + (run.whole ? 1 : 0));
   double done = 0.0;
-  const auto add = [&](const WalkTables& tables, const StopBranch& of, ProofHints* with) {
+  const auto add = [&](const WalkMotion& motion, const StopBranch& of, ProofHints* with) {
     TrajectoryCheck part = CheckWalk(
-        tables, run.robot, of.world ? *of.world : run.scene, run.certificate, run.crouch,
+        motion, run.robot, of.world ? *of.world : run.scene, run.certificate, run.crouch,
         [&](double share) { return !progress || progress((done + share) / parts); }, with, of.from);
     for (const TrajectoryFinding& finding : part.findings) {
       const auto [at, is_new] = worst.try_emplace({finding.kind, finding.subject});
@@ -167,9 +167,11 @@ TrajectoryCheck CheckRun(const WalkRun& run, const std::function<bool(double don
     all.stopped = part.stopped;
     done += 1.0;
   };
-  if (run.whole) add(run.tables, {}, hints);
+  const WalkMotion motion(run.tables);
+  if (run.whole) add(motion, {}, hints);
   for (size_t i = 0; i < run.branches.size() && !all.stopped; ++i) {
-    add(run.tables.CutAfter(run.branches[i].last), run.branches[i], nullptr);
+    const StopBranch& branch = run.branches[i];
+    add(motion.CutAfter(branch.last, branch.from), branch, nullptr);
   }
   for (auto& [key, finding] : worst) all.findings.push_back(std::move(finding));
   all.not_covered.insert(all.not_covered.end(), run.not_covered.begin(), run.not_covered.end());

@@ -57,8 +57,8 @@ WalkRun ReadEpisodeRun(const std::string& folder, const std::string& robot_file,
 /// What files say that nothing is claimed of; pairs of bodies in one sentence.
 std::vector<std::string> SentencesOf(const std::vector<verify::NotCoveredItem>& not_covered);
 
-/// CheckWalk of the walk and of its branches: of each statement what is kept least, or missed.
-/// `hints` are of the walk itself.
+/// CheckWalk of the walk and of its branches, each from its `from` on: of each statement what is
+/// kept least, or missed. `hints` are of the walk itself.
 TrajectoryCheck CheckRun(const WalkRun& run, const std::function<bool(double done)>& progress = {},
                          ProofHints* hints = nullptr);
 

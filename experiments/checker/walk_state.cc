@@ -57,10 +57,8 @@ WalkState::WalkState(const RobotModel& robot, const std::array<LegSolver, 2>& so
       middle_(0.5 * from + 0.5 * to),
       h_(Interval(from, to).FarthestFrom(middle_)),
       numbers_(motion.On(from, to)),
+      flight_(motion.FlightAt(middle_)),
       centers_(robot.bodies.size()) {
-  for (const WalkMotion::Flight& flight : motion.flights()) {
-    if (flight.begin <= middle_ && middle_ <= flight.end) flight_ = &flight;
-  }
   for (size_t side = 0; side < 2; ++side) {
     const size_t sole = kSole + 4 * side;
     // A foot that stands has one place.

@@ -84,7 +84,7 @@ class WalkState {
   const std::array<LegSolver, 2>& solvers_;
   double middle_, h_;
   WalkNumbers numbers_;
-  const WalkMotion::Flight* flight_ = nullptr;
+  const WalkMotion::Flight* flight_;
   FrameIn<Curve> X_WB_;
   std::array<FrameIn<Curve>, 2> soles_, carried_;
   std::array<std::optional<LegPosture>, 2> legs_;

@@ -19,8 +19,8 @@ namespace halfstep {
 
 namespace {
 
-void WriteTrajectory(const Episode& episode, const LiveConfig& config, const RobotModel& robot,
-                     RunFolder* folder) {
+void WriteExecuted(const Episode& episode, const LiveConfig& config, const RobotModel& robot,
+                   RunFolder* folder) {
   // Margins of each instant are those in the world that was known then.
   size_t version = 0;
   std::unique_ptr<const MarginEvaluator> evaluator;
@@ -37,7 +37,7 @@ void WriteTrajectory(const Episode& episode, const LiveConfig& config, const Rob
   const SuperposedWalk walk = episode.Executed();
   const double end = std::min(walk.duration(), episode.end);
   const double period = config.experiment.output_period.value_or(kRowPeriod);
-  WriteCsv("trajectory", TrajectoryCsv(walk, end, period, at), folder);
+  WriteTrajectory(walk, end, period, at, folder);
 }
 
 std::string ManifestJson(const Episode& episode, const LiveConfig& config, const Place& place,
@@ -81,10 +81,10 @@ void WriteEpisode(const Episode& episode, const LiveConfig& config, const Place&
   }
   for (size_t k = 0; k < episode.walks.size(); ++k) {
     for (const EpisodeTable& table : WalkTables(episode, k)) {
-      WriteCsv(table.name, table.file, folder);
+      WriteCsvOfMany(table.name, table.file, folder);
     }
   }
-  if (!episode.walks.empty()) WriteTrajectory(episode, config, place.robot, folder);
+  if (!episode.walks.empty()) WriteExecuted(episode, config, place.robot, folder);
   LiveConfig named = config;
   named.experiment = WithInputs(config.experiment, place.robot, place.scene, folder);
   const std::string resolved = ResolvedFor(folder->path(), named);

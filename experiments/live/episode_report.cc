@@ -32,6 +32,26 @@ json Rounded(json value) {
   return value;
 }
 
+// About how far apart rows of the motion are that are shown [s].
+double SpacingOf(size_t k, const LiveConfig& config) {
+  const double period = config.experiment.output_period.value_or(kRowPeriod);
+  return std::max(kSpacing * static_cast<double>(k), period);
+}
+
+// At what k the page may be short enough at the earliest: each number of the motion takes two
+// bytes.
+size_t LeastThinning(const Episode& episode, const LiveConfig& config, size_t columns) {
+  if (episode.walks.empty()) return 1;
+  const double period = config.experiment.output_period.value_or(kRowPeriod);
+  const double end = std::min(episode.end, episode.Executed().duration());
+  size_t k = 1;
+  const auto least_bytes = [&] {
+    return 2.0 * static_cast<double>(columns) * end / (SpacingOf(k, config) + period);
+  };
+  while (least_bytes() > static_cast<double>(kMostBytes)) k *= 2;
+  return k;
+}
+
 // Whether element i of a list of `count` is among every k-th, the last one included.
 bool IsShown(size_t i, size_t count, size_t k) { return i % k == 0 || i + 1 == count; }
 
@@ -60,6 +80,22 @@ void AddWalks(const Episode& episode, bool lockstep, size_t k, json* messages) {
   }
 }
 
+// Of hand-overs of walks that are not shown only the first after another event is told, so that the
+// page finds what was last before the robot stopped.
+void AddEvents(const Episode& episode, size_t k, json* messages) {
+  bool in_a_row = false;
+  for (const EpisodeEvent& event : episode.events) {
+    if (event.what == "measured" || event.what == "begins") continue;  // worlds and rows say it
+    const bool hands_over = event.what == "handed_over";
+    if (hands_over && in_a_row &&
+        !IsShown(static_cast<size_t>(event.walk), episode.walks.size(), k)) {
+      continue;
+    }
+    in_a_row = hands_over;
+    messages->push_back(Rounded(EventMessage(event)));
+  }
+}
+
 json Messages(const Episode& episode, const LiveConfig& config, const Place& place, size_t k) {
   json messages = json::array(
       {HelloMessage(config, place.robot, place.scene, {}), DrawMessage(place.robot, place.scene)});
@@ -72,10 +108,7 @@ json Messages(const Episode& episode, const LiveConfig& config, const Place& pla
     if (!IsShown(i, episode.grants.size(), k)) continue;
     messages.push_back(Rounded(GrantMessage(episode.grants[i], i)));
   }
-  for (const EpisodeEvent& event : episode.events) {
-    if (event.what == "measured" || event.what == "begins") continue;  // worlds and rows say it
-    messages.push_back(Rounded(EventMessage(event)));
-  }
+  AddEvents(episode, k, &messages);
   messages.push_back(EndMessage(episode, ""));
   return messages;
 }
@@ -84,7 +117,10 @@ std::string OutcomeOf(const Episode& episode, const LiveConfig& config, size_t k
   std::string outcome = "recording, " + std::string(Name(episode.ending)) +
                         Formatted(" after %.2f s, ", episode.end) + config.live.clock +
                         ", policy " + config.live.policy + "; " + PromiseSentence(episode.promise);
-  if (k > 1) outcome += ", every " + std::to_string(k) + "th world, walk and grant is shown";
+  if (k > 1) {
+    outcome += Formatted(", every %zuth world, walk and grant is shown, the motion every %.3g s", k,
+                         SpacingOf(k, config));
+  }
   return outcome;
 }
 
@@ -97,7 +133,7 @@ std::string EpisodeReport(const Episode& episode, const LiveConfig& config, cons
     const bool derivative = column.name.starts_with("com_v") || column.name.starts_with("com_a");
     if (!derivative && column.name != "support") columns.push_back(column.name);
   }
-  for (size_t k = 1;; k *= 2) {
+  for (size_t k = LeastThinning(episode, config, columns.size());; k *= 2) {
     const json motion = episode.walks.empty() ? json(nullptr)
                                               : MotionJson(folder / "trajectory.csv", columns,
                                                            kSpacing * static_cast<double>(k));

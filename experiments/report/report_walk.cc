@@ -11,6 +11,7 @@
 #include "experiments/tables/json_file.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/number_text.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {
@@ -23,15 +24,44 @@ constexpr double kSpeeds = 1e-4;  // of speeds [m/s, rad/s]
 // Of a number that is drawn; sums of differences stay exact in JavaScript's doubles.
 constexpr double kMostSteps = 4e15;
 
+// Of rows `period` apart every so-manieth is shown.
+size_t StrideOf(double period, double spacing) {
+  const double ratio = std::ceil(spacing / std::max(period, 1e-6) - 1e-6);
+  return static_cast<size_t>(std::max(1.0, ratio));
+}
+
 // Every stride-th row, and the last one.
 std::vector<size_t> RowsToShow(const std::vector<double>& times, double spacing) {
   std::vector<size_t> rows;
-  const double period = times.size() > 2 ? times[1] - times[0] : spacing;
-  const double ratio = std::ceil(spacing / std::max(period, 1e-6) - 1e-6);
-  const auto stride = static_cast<size_t>(std::max(1.0, ratio));
+  const size_t stride = StrideOf(times.size() > 2 ? times[1] - times[0] : spacing, spacing);
   for (size_t i = 0; i + 1 < times.size(); i += stride) rows.push_back(i);
   rows.push_back(times.size() - 1);
   return rows;
+}
+
+size_t PlaceOf(const std::string& path, const std::vector<std::string>& header,
+               const std::string& column) {
+  const auto found = std::ranges::find(header, column);
+  if (found == header.end()) throw InputError({path + ":1: no column '" + column + "'"});
+  return static_cast<size_t>(found - header.begin());
+}
+
+double NumberIn(const std::string& path, size_t row, const std::string& column,
+                const std::string& cell) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  if (error == std::errc() && end == cell.data() + cell.size()) return value;
+  throw InputError({path + Formatted(":%zu: ", row + 2) + column + ": not a number"});
+}
+
+// How far apart the rows of a trajectory.csv of more than two are [s].
+double PeriodOf(const std::string& path, double otherwise) {
+  std::vector<double> times;
+  EachCsvRow(path, [&](const auto& header, const auto& cells) {
+    times.push_back(NumberIn(path, times.size(), "t_s", cells[PlaceOf(path, header, "t_s")]));
+    return times.size() < 3;
+  });
+  return times.size() > 2 ? times[1] - times[0] : otherwise;
 }
 
 json ColumnJson(const std::vector<double>& values, const std::vector<size_t>& rows, double step) {
@@ -138,12 +168,41 @@ json ProvedJson(const fs::path& certificate) {
 
 json MotionJson(const fs::path& trajectory, const std::vector<std::string>& columns,
                 double spacing) {
-  const ShownRows shown = ReadRows(trajectory, spacing);
+  const std::string path = trajectory.string();
+  const size_t stride = StrideOf(PeriodOf(path, spacing), spacing);
+  std::vector<size_t> places, rows;  // of the columns; 0, 1, 2, …
+  std::vector<std::vector<double>> shown(columns.size());
+  std::string support;
+  const auto show = [&](size_t row, const std::vector<std::string>& cells) {
+    for (size_t i = 0; i < columns.size(); ++i) {
+      shown[i].push_back(NumberIn(path, row, columns[i], cells[places[i + 1]]));
+    }
+    const std::string& carries = cells[places[0]];
+    support += carries.empty() ? '?' : carries.front();
+    rows.push_back(rows.size());
+  };
+  std::vector<std::string> last;
+  size_t next = 0;
+  EachCsvRow(path, [&](const auto& header, const auto& cells) {
+    if (next == 0) {
+      places = {PlaceOf(path, header, "support")};
+      for (const std::string& column : columns) places.push_back(PlaceOf(path, header, column));
+    }
+    last = cells;
+    if (next++ % stride == 0) {
+      show(next - 1, cells);
+      last.clear();
+    }
+    return true;
+  });
+  if (next == 0) throw InputError({path + ": no rows"});
+  if (!last.empty()) show(next - 1, last);
   json drawn = json::object();
-  for (const std::string& column : columns) {
-    drawn[column] = ColumnJson(shown.table.Numbers(column), shown.rows, kFine);
+  for (size_t i = 0; i < columns.size(); ++i) {
+    drawn[columns[i]] = ColumnJson(shown[i], rows, kFine);
+    shown[i] = {};
   }
-  return {{"columns", std::move(drawn)}, {"support", SupportOf(shown)}};
+  return {{"columns", std::move(drawn)}, {"support", support}};
 }
 
 json RowsJson(const fs::path& csv) {

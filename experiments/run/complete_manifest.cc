@@ -13,7 +13,7 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr char kManifest[] = "manifest.json";
-constexpr std::uint64_t kMostManifestBytes = std::uint64_t{16} << 20;
+constexpr std::uint64_t kMostManifestBytes = std::uint64_t{64} << 20;
 
 ordered_json InputsJson(const std::vector<InputFile>& files) {
   ordered_json list = ordered_json::array();

@@ -1,8 +1,10 @@
 #include "experiments/tables/csv_columns.h"
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "experiments/tables/run_folder.h"
+#include "wpg/files/sha256.h"
 
 namespace halfstep {
 namespace {
@@ -53,6 +55,19 @@ std::string SchemaJson(const CsvColumns& columns) {
 void WriteCsv(const std::string& name, const CsvFile& file, RunFolder* folder) {
   folder->Write(name + ".csv", file.text);
   folder->Write(name + ".schema.json", SchemaJson(file.columns));
+}
+
+void WriteCsvOfMany(const std::string& name, const CsvFile& file, RunFolder* folder) {
+  folder->Write(name + ".csv", file.text);
+  const std::filesystem::path path = name + ".schema.json";
+  const std::string of_all = (path.parent_path().parent_path() / path.filename()).string();
+  const std::string schema = SchemaJson(file.columns);
+  const auto there = folder->written().find(of_all);
+  if (there == folder->written().end()) {
+    folder->Write(of_all, schema);
+  } else if (there->second.sha256 != Sha256(schema)) {
+    folder->Write(path.string(), schema);
+  }
 }
 
 }  // namespace halfstep

@@ -42,4 +42,8 @@ std::string SchemaJson(const CsvColumns& columns);
 /// Writes NAME.csv and NAME.schema.json: `name` is "dichotomy/overlaps". Throws as RunFolder.
 void WriteCsv(const std::string& name, const CsvFile& file, RunFolder* folder);
 
+/// The same of "walks/007/overlaps", one of many: the schema of the first of them is that of all,
+/// walks/overlaps.schema.json. Beside a table one stands where its columns are others.
+void WriteCsvOfMany(const std::string& name, const CsvFile& file, RunFolder* folder);
+
 }  // namespace halfstep

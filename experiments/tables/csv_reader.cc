@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <utility>
 
 #include "wpg/files/input_error.h"
 #include "wpg/files/regular_file.h"
@@ -16,6 +17,72 @@ constexpr std::uint64_t kMostBytes = 1 << 30;
   throw InputError({path + ":" + std::to_string(line) + ": " + what});
 }
 
+// Splits a text that comes in parts into rows.
+class CsvParser {
+ public:
+  CsvParser(const std::string& path, CsvRowLook look) : path_(path), look_(std::move(look)) {}
+
+  // Whether more is wanted.
+  bool Add(std::string_view part) {
+    for (const char c : part) {
+      if (state_ == State::kQuoted) {
+        if (c == '"') {
+          state_ = State::kAfterQuote;
+        } else {
+          row_.back() += c;
+        }
+      } else if (state_ == State::kAfterQuote && c == '"') {  // a doubled one
+        row_.back() += c;
+        state_ = State::kQuoted;
+      } else if (c == '"' && row_.back().empty() && state_ == State::kPlain) {
+        state_ = State::kQuoted;
+      } else {
+        state_ = State::kPlain;
+        if (c == ',') {
+          row_.emplace_back();
+        } else if (c != '\n') {
+          row_.back() += c;
+        } else if (!EndRow()) {
+          return false;
+        }
+      }
+    }
+    return true;
+  }
+  void Finish() const {
+    if (state_ == State::kQuoted || row_.size() > 1 || !row_.back().empty()) {
+      Refuse(path_, line_, "the last line is cut");
+    }
+    if (header_.empty()) Refuse(path_, 1, "no header");
+  }
+  const std::vector<std::string>& header() const { return header_; }
+
+ private:
+  enum class State { kPlain, kQuoted, kAfterQuote };
+
+  bool EndRow() {
+    bool more = true;
+    if (header_.empty()) {
+      header_ = row_;
+    } else if (row_.size() != header_.size()) {
+      Refuse(
+          path_, line_,
+          std::to_string(row_.size()) + " cells, the header has " + std::to_string(header_.size()));
+    } else {
+      more = look_(header_, row_);
+    }
+    row_.assign(1, "");
+    ++line_;
+    return more;
+  }
+
+  const std::string& path_;
+  const CsvRowLook look_;
+  State state_ = State::kPlain;
+  std::vector<std::string> header_, row_ = {""};
+  size_t line_ = 1;
+};
+
 }  // namespace
 
 CsvTable ReadCsv(const std::string& path) { return ParseCsv(ReadCsvText(path), path); }
@@ -24,42 +91,21 @@ std::string ReadCsvText(const std::string& path) { return ReadRegularFile(path, 
 
 CsvTable ParseCsv(const std::string& text, const std::string& path) {
   CsvTable table{path, {}, {}};
-  std::vector<std::string> row(1);
-  bool quoted = false;
-  size_t line = 1;
-  for (size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (quoted) {
-      const bool doubled = c == '"' && i + 1 < text.size() && text[i + 1] == '"';
-      if (doubled) ++i;
-      if (c == '"' && !doubled) {
-        quoted = false;
-      } else {
-        row.back() += c;
-      }
-    } else if (c == '"' && row.back().empty()) {
-      quoted = true;
-    } else if (c == ',') {
-      row.emplace_back();
-    } else if (c == '\n') {
-      if (table.header.empty()) {
-        table.header = row;
-      } else if (row.size() != table.header.size()) {
-        Refuse(path, line,
-               std::to_string(row.size()) + " cells, the header has " +
-                   std::to_string(table.header.size()));
-      } else {
-        table.rows.push_back(row);
-      }
-      row.assign(1, "");
-      ++line;
-    } else {
-      row.back() += c;
-    }
-  }
-  if (quoted || row.size() > 1 || !row.back().empty()) Refuse(path, line, "the last line is cut");
-  if (table.header.empty()) Refuse(path, 1, "no header");
+  CsvParser parser(path, [&](const std::vector<std::string>&, const std::vector<std::string>& row) {
+    table.rows.push_back(row);
+    return true;
+  });
+  parser.Add(text);
+  parser.Finish();
+  table.header = parser.header();
   return table;
+}
+
+void EachCsvRow(const std::string& path, const CsvRowLook& look) {
+  CsvParser parser(path, look);
+  bool all = true;
+  ReadRegularFileParts(path, [&](std::string_view part) { return all = parser.Add(part); });
+  if (all) parser.Finish();
 }
 
 bool CsvTable::Has(const std::string& column) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,6 +31,12 @@ struct CsvTable {
 /// Throws InputError as path:line: when a row has not as many cells as the header, when a quote is
 /// left open, or when the file cannot be read or exceeds 1 GiB.
 CsvTable ReadCsv(const std::string& path);
+/// What looks at a row; returns whether it wants more of them.
+using CsvRowLook = std::function<bool(const std::vector<std::string>& header,
+                                      const std::vector<std::string>& cells)>;
+/// Hands on the rows of a file of any size one after the other, of which none is kept. Throws as
+/// ReadCsv for those that are looked at.
+void EachCsvRow(const std::string& path, const CsvRowLook& look);
 /// The text of the file, not parsed.
 std::string ReadCsvText(const std::string& path);
 /// The same for a text; `path` stands for it in complaints.

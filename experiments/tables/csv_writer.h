@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "experiments/tables/csv_columns.h"
 
@@ -32,6 +33,8 @@ class CsvWriter {
   void EndRow();
 
   const std::string& text() const { return text_; }  ///< header and rows so far
+  /// The same, which is then forgotten.
+  std::string TakeText() { return std::exchange(text_, {}); }
   /// The table, whole.
   CsvFile file() const { return {columns_, text_}; }
 

@@ -87,10 +87,12 @@ std::vector<MotionCell> MotionRow(const RobotModel& robot, const SuperposedWalk&
 /// Columns of trajectory.csv for a robot: those of the motion, and the margins.
 CsvColumns TrajectoryColumns(const RobotModel& robot);
 
-/// trajectory.csv of a walk from 0 to `end` [s] in rows `period` [s] apart, the last one at `end`;
-/// margins are those of `evaluator_at(t)`.
-CsvFile TrajectoryCsv(const SuperposedWalk& walk, double end, double period,
-                      const std::function<const MarginEvaluator&(double)>& evaluator_at);
+/// Writes trajectory.csv of a walk from 0 to `end` [s] in rows `period` [s] apart, the last one at
+/// `end`, with its schema; margins are those of `evaluator_at(t)`. No more than a few rows are kept
+/// in memory. Throws as RunFolder.
+void WriteTrajectory(const SuperposedWalk& walk, double end, double period,
+                     const std::function<const MarginEvaluator&(double)>& evaluator_at,
+                     RunFolder* folder);
 
 /// Samples the walk of `run->result.parameters` at a fixed period [s], the last row exactly at its
 /// end, and fills the walk's part of `run`. Where a leg does not reach, its joint angles are nan.

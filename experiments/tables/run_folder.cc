@@ -86,6 +86,11 @@ void RunFolder::CheckReplaceable() const {
 }
 
 void RunFolder::Write(const std::string& relative, std::string_view content) {
+  WriteParts(relative, [content](const TextSink& add) { add(content); });
+}
+
+void RunFolder::WriteParts(const std::string& relative,
+                           const std::function<void(const TextSink&)>& write) {
   const fs::path target = staging() / relative;
   std::error_code error;
   fs::create_directories(target.parent_path(), error);
@@ -93,8 +98,16 @@ void RunFolder::Write(const std::string& relative, std::string_view content) {
   if (error) Fail("cannot make its folder", shown, error.value());
   fs::remove(target, error);  // of the older run
   if (error) Fail("cannot be written", shown, error.value());
-  WriteSynced(target, {content}, shown);
-  written_[relative] = {relative, shown.string(), content.size(), Sha256(content)};
+  SyncedFile file(target, shown);
+  Sha256Hash hash;
+  size_t bytes = 0;
+  write([&](std::string_view part) {
+    file.Add(part);
+    hash.Add(part);
+    bytes += part.size();
+  });
+  file.Sync();
+  written_[relative] = {relative, shown.string(), bytes, hash.FinishHex()};
 }
 
 void RunFolder::CopyOlder() {

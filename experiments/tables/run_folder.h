@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -34,6 +35,11 @@ class RunFolder {
   /// Throws std::runtime_error that names the file and the system's reason, e.g. "No space left on
   /// device".
   void Write(const std::string& relative, std::string_view content);
+
+  /// What takes the parts of a text, one after the other.
+  using TextSink = std::function<void(std::string_view part)>;
+  /// The same of a content that is too long for memory: `write` hands on its parts.
+  void WriteParts(const std::string& relative, const std::function<void(const TextSink&)>& write);
 
   /// What Write() wrote, by relative path; the last content of each.
   const std::map<std::string, InputFile>& written() const { return written_; }

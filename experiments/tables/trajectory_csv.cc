@@ -5,6 +5,7 @@
 #include "experiments/tables/csv_writer.h"
 #include "experiments/tables/margin_columns.h"
 #include "experiments/tables/result_tables.h"
+#include "experiments/tables/run_folder.h"
 #include "wpg/motion/posture.h"
 #include "wpg/nth.h"
 
@@ -101,17 +102,24 @@ CsvColumns TrajectoryColumns(const RobotModel& robot) {
   return columns;
 }
 
-CsvFile TrajectoryCsv(const SuperposedWalk& walk, double end, double period,
-                      const std::function<const MarginEvaluator&(double)>& evaluator_at) {
-  CsvWriter csv(TrajectoryColumns(evaluator_at(0.0).robot()));
-  const long full = static_cast<long>(std::floor(end / period * (1.0 - 1e-12)));
-  for (long i = 0; i <= full + 1; ++i) {
-    const double t = i <= full ? static_cast<double>(i) * period : end;
-    const MarginEvaluator& evaluator = evaluator_at(t);
-    MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
-    WriteRow(evaluator, walk, t, evaluator.At(walk, walk.Locate(t), &scratch), &csv);
-  }
-  return csv.file();
+void WriteTrajectory(const SuperposedWalk& walk, double end, double period,
+                     const std::function<const MarginEvaluator&(double)>& evaluator_at,
+                     RunFolder* folder) {
+  constexpr size_t kMostKept = 1 << 16;  // bytes
+  const CsvColumns columns = TrajectoryColumns(evaluator_at(0.0).robot());
+  folder->WriteParts("trajectory.csv", [&](const RunFolder::TextSink& add) {
+    CsvWriter csv(columns);
+    const long full = static_cast<long>(std::floor(end / period * (1.0 - 1e-12)));
+    for (long i = 0; i <= full + 1; ++i) {
+      const double t = i <= full ? static_cast<double>(i) * period : end;
+      const MarginEvaluator& evaluator = evaluator_at(t);
+      MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
+      WriteRow(evaluator, walk, t, evaluator.At(walk, walk.Locate(t), &scratch), &csv);
+      if (csv.text().size() > kMostKept) add(csv.TakeText());
+    }
+    add(csv.TakeText());
+  });
+  folder->Write("trajectory.schema.json", SchemaJson(columns));
 }
 
 void SampleTrajectory(const MarginEvaluator& evaluator, const HalfStepSequence& sequence,

@@ -203,8 +203,8 @@ void CheckEpisodeWorlds(const EpisodeText& episode, const LiveOptions& options, 
 Scene SceneOfWorld(const EpisodeText& episode, const Scene& scene, size_t version) {
   Scene known = scene.Emptied();
   const WorldRow& world = episode.worlds[version];
-  for (const ObstacleRow& row : episode.obstacles) {
-    if (row.world != world.world) continue;
+  for (const ObstacleRow& row :
+       std::ranges::equal_range(episode.obstacles, world.world, {}, &ObstacleRow::world)) {
     Obstacle obstacle = *Named(scene, row.name);
     const auto [w, x, y, z] = row.turn;
     obstacle.X_WO = Eigen::Isometry3d::Identity();

@@ -350,7 +350,8 @@ TEST(CheckWalk, LimitsAreFound) {
     walk.certificate.demanded.fill(verify::kNotDemanded);
     double& demanded = walk.certificate.demanded[static_cast<size_t>(family)];
     const auto check = [&] {
-      return CheckWalk(walk.tables, walk.robot, walk.scene, walk.certificate, walk.crouch);
+      return CheckWalk(WalkMotion(walk.tables), walk.robot, walk.scene, walk.certificate,
+                       walk.crouch);
     };
     demanded = least + 1e-6;
     EXPECT_FALSE(check().proved()) << column;
@@ -381,7 +382,7 @@ TEST(CheckWalk, TheWaistIsAsLowAsTheFootstepsSay) {
 TEST(CheckWalk, NudgedWalksAreNotProved) {
   const auto missed = [](const WalkRun& walk) {
     const TrajectoryCheck check =
-        CheckWalk(walk.tables, walk.robot, walk.scene, walk.certificate, walk.crouch);
+        CheckWalk(WalkMotion(walk.tables), walk.robot, walk.scene, walk.certificate, walk.crouch);
     std::string told;
     for (const TrajectoryFinding* finding : Missed(check)) told += finding->subject + "; ";
     return told;
@@ -457,7 +458,8 @@ TEST(CheckWalk, WalksOverOtherGroundAreNotProved) {
 
 TEST(CheckWalk, StopBranchesAreProved) {
   const MadeRun run(R"(robot: hrp2
-scene: )" + InSources() + R"(/experiments/scenes/box.yaml
+scene: )" + InSources() +
+                        R"(/experiments/scenes/box.yaml
 footsteps:
   - {foot: right, x_m: 0.274, y_m: -0.105}
 half_step: {foot_delay: 0.19}
@@ -482,8 +484,9 @@ TEST(CheckEpisode, WhatBeganIsProved) {
 
 TEST(CheckWalk, WhatItDoesNotKnowIsRefused) {
   const auto refused = [](const WalkRun& walk) {
-    return RefusalOf(
-        [&] { CheckWalk(walk.tables, walk.robot, walk.scene, walk.certificate, walk.crouch); });
+    return RefusalOf([&] {
+      CheckWalk(WalkMotion(walk.tables), walk.robot, walk.scene, walk.certificate, walk.crouch);
+    });
   };
   WalkRun walk = Box().walk;
   walk.certificate.tube.emplace();
@@ -511,8 +514,8 @@ TEST(ProofFile, IsReadBackToTheBit) {
     proof.method = "dichotomy";
     const auto check = [](ProofFile* of) {
       const WalkRun& walk = of->walk;
-      return CheckWalk(walk.tables, walk.robot, walk.scene, walk.certificate, walk.crouch, {},
-                       &of->hints);
+      return CheckWalk(WalkMotion(walk.tables), walk.robot, walk.scene, walk.certificate,
+                       walk.crouch, {}, &of->hints);
     };
     const TrajectoryCheck first = check(&proof);
     const std::string text = ProofText(proof, {"a sentence"});

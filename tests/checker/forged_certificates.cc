@@ -166,7 +166,8 @@ checker::ForgeryTally Judge::Forge(SceneKind kind, unsigned seed, int rounds,
   RaiseOverlaps(&drawn, &answers);
   const Scene scene = LoadScene(WriteScene(drawn.plain_scene, folder));
   const auto ask = [&](const WalkPlan& plan, const verify::CertificateText& demands) {
-    return checker::CheckWalk(checker::TablesOf(plan), robot_, scene, demands, plan.crouch);
+    return checker::CheckWalk(checker::WalkMotion(checker::TablesOf(plan)), robot_, scene, demands,
+                              plan.crouch);
   };
   const ClosedFormWalk walk(drawn.plan);
   WalkTruth truth(plain_, walk, *drawn.placed, drawn.plain_scene.no_step,

@@ -1,5 +1,5 @@
 """Loads every CSV below a folder with pandas as it comes and compares its columns' types with the
-schema beside it. Exit status 1 and a line for each difference; without rows there are no types."""
+schema beside it or, of one of many, in the folder above. Exit status 1 and a line for each difference; without rows there are no types."""
 import json
 import pathlib
 import sys
@@ -10,7 +10,10 @@ DTYPES = {"integer": "int64", "number": "float64", "boolean": "bool", "string": 
 
 wrong = files = 0
 for path in sorted(pathlib.Path(sys.argv[1]).rglob("*.csv")):
-    fields = json.loads(path.with_suffix(".schema.json").read_text())["fields"]
+    schema = path.with_suffix(".schema.json")
+    if not schema.exists():
+        schema = schema.parent.parent / schema.name
+    fields = json.loads(schema.read_text())["fields"]
     table = pandas.read_csv(path)
     files += 1
     if list(table.columns) != [field["name"] for field in fields]:

@@ -9,7 +9,10 @@
 #include <random>
 #include <stdexcept>
 
+#include "experiments/tables/csv_reader.h"
 #include "tests/experiments/parsed_csv.h"
+#include "tests/refusal_of.h"
+#include "tests/temporary_folder.h"
 
 namespace halfstep {
 namespace {
@@ -82,6 +85,37 @@ TEST(CsvWriter, RefusesARowOfAnotherLength) {
   EXPECT_THROW(csv.EndRow(), std::logic_error);
   csv.Cell(2);
   EXPECT_THROW(csv.Cell(3), std::logic_error);
+}
+
+// Of a file that is read in many parts: quotes and line breaks lie on every place of them.
+TEST(CsvReader, HandsOnTheRowsOfATable) {
+  CsvWriter csv({{"i", kInteger}, {"text", kString}});
+  for (int i = 0; i < 20'000; ++i) {
+    csv.Cell(i).Cell(std::string(static_cast<size_t>(i % 7), 'x') + "\"a\", \n\"\"b").EndRow();
+  }
+  const TemporaryFolder place;
+  WriteText(place / "a.csv", csv.text());
+  const std::string path = (place / "a.csv").string();
+  const CsvTable table = ReadCsv(path);
+  ASSERT_EQ(table.rows.size(), 20'000u);
+  EXPECT_EQ(table.rows[8][1], "x\"a\", \n\"\"b");
+  size_t next = 0;
+  const auto look = [&](size_t most) {
+    return [&, most](const auto& header, const auto& cells) {
+      EXPECT_EQ(header, table.header);
+      EXPECT_EQ(cells, table.rows.at(next));
+      return ++next < most;
+    };
+  };
+  EachCsvRow(path, look(30'000));
+  EXPECT_EQ(next, table.rows.size());
+  next = 0;
+  EachCsvRow(path, look(3));
+  EXPECT_EQ(next, 3u);
+  WriteText(place / "a.csv", csv.text() + "1");
+  next = 0;
+  EXPECT_NE(RefusalOf([&] { EachCsvRow(path, look(30'000)); }).find("the last line is cut"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -74,6 +74,24 @@ TEST(RunFolder, WritesAllOfALargeFile) {
   EXPECT_TRUE(ReadText(place / "a/manifest.json") == large);
 }
 
+TEST(RunFolder, WritesContentThatComesInParts) {
+  const TemporaryFolder place;
+  RunFolder folder(place / "a", false);
+  std::string whole;
+  folder.WriteParts("x/parts.csv", [&](const RunFolder::TextSink& add) {
+    for (int i = 0; i < 1000; ++i) {
+      add(std::to_string(i) + "\n");
+      whole += std::to_string(i) + "\n";
+    }
+  });
+  folder.Write("whole.csv", whole);
+  const InputFile &parts = folder.written().at("x/parts.csv"),
+                  &at_once = folder.written().at("whole.csv");
+  EXPECT_EQ(parts.bytes, at_once.bytes);
+  EXPECT_EQ(parts.sha256, at_once.sha256);
+  EXPECT_EQ(ReadText(folder.staging() / "x/parts.csv"), whole);
+}
+
 TEST(RunFolder, RefusesAnExistingFolderAndLeavesItAlone) {
   const TemporaryFolder place;
   MakeRun(place / "a", "old");

@@ -12,10 +12,13 @@
 #include "experiments/live/messages.h"
 #include "experiments/report/live_page.h"
 #include "experiments/report/report_page.h"
+#include "experiments/report/report_walk.h"
 #include "experiments/run/exit_status.h"
 #include "tests/experiments/child_process.h"
 #include "tests/live/small_files.h"
+#include "tests/refusal_of.h"
 #include "tests/temporary_folder.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {
@@ -128,6 +131,27 @@ TEST_F(WrittenEpisode, WithAnotherSceneIsRefused) {
   EXPECT_THAT(outcome.err, HasSubstr("the files of the scene are not those of this episode"));
 }
 
+TEST_F(EpisodeReportTest, TheMotionHasEverySoManiethRowAndTheLast) {
+  const TemporaryFolder folder;
+  const auto shown = [&](int rows) {
+    std::string text = "t_s,support,x_m,y_m\n";
+    for (int i = 0; i < rows; ++i) {
+      text += Formatted("%.3f,%s,%d,0\n", 0.005 * i, i % 2 == 0 ? "left" : "both", i);
+    }
+    WriteText(folder / "trajectory.csv", text);
+    return MotionJson(folder / "trajectory.csv", {"x_m"}, 0.02);
+  };
+  const auto deltas = [&](int rows) { return shown(rows)["columns"]["x_m"]["delta"].dump(); };
+  EXPECT_EQ(deltas(10), "[0,400000,400000,100000]");  // 0, 4, 8, 9
+  EXPECT_EQ(shown(10)["support"], "lllb");
+  EXPECT_EQ(deltas(9), "[0,400000,400000]");
+  EXPECT_EQ(deltas(2), "[0,100000]");  // of two rows none is left out
+  EXPECT_EQ(deltas(1), "[0]");
+  EXPECT_THAT(RefusalOf([&] { shown(0); }), HasSubstr("trajectory.csv: no rows"));
+  EXPECT_THAT(RefusalOf([&] { (void)MotionJson(folder / "trajectory.csv", {"z_m"}, 0.02); }),
+              testing::AnyOf(HasSubstr("no rows"), HasSubstr("no column 'z_m'")));
+}
+
 TEST_F(EpisodeReportTest, FootstepsOfARecordedWalkFollowThoseOfTheOneBefore) {
   const SmallWorld& small = SmallWorld::Get();
   LiveConfig config = small.config;
@@ -176,7 +200,12 @@ TEST_F(EpisodeReportTest, FootstepsOfARecordedWalkFollowThoseOfTheOneBefore) {
     }
   }
 
-  // More than an hour of worlds: fewer of them are shown, and the page says so.
+  // More than an hour of worlds: fewer of them are shown, and the page says so. Of hand-overs in a
+  // row those of walks that are shown are told, and the first, which may be why the robot stopped.
+  for (const char* what : {"unsafe", "handed_over", "handed_over", "handed_over", "stopped"}) {
+    episode.events.push_back({.t = episode.end, .what = what, .walk = 1});
+  }
+  episode.walks.resize(std::max<size_t>(3, walks.size()), walks.back());
   const World world = episode.worlds.back();
   for (int i = 0; i < 40'000; ++i) {
     episode.worlds.push_back(world);
@@ -184,8 +213,14 @@ TEST_F(EpisodeReportTest, FootstepsOfARecordedWalkFollowThoseOfTheOneBefore) {
   }
   const std::string page = EpisodeReport(episode, config, place, folder.path());
   EXPECT_LT(page.size(), 5'000'000u);
-  EXPECT_THAT(DataOf(page)["outcome"].get<std::string>(),
-              HasSubstr("th world, walk and grant is shown"));
+  EXPECT_THAT(
+      DataOf(page)["outcome"].get<std::string>(),
+      testing::ContainsRegex("th world, walk and grant is shown, the motion every [0-9.]+ s"));
+  std::string last;
+  for (const json& event : ByType(DataOf(page)["messages"])["event"]) {
+    last += event["event"].get<std::string>() + " ";
+  }
+  EXPECT_TRUE(last.ends_with("unsafe handed_over stopped ")) << last;
 }
 
 }  // namespace

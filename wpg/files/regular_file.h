@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
+#include <string_view>
 
 namespace halfstep {
 
@@ -19,6 +21,10 @@ FileBytes TryReadRegularFile(const std::string& path, std::uint64_t most);
 
 /// The same; throws InputError "path: refused".
 std::string ReadRegularFile(const std::string& path, std::uint64_t most);
+
+/// The same of a file of any size, whose parts are handed on until `take` returns false.
+void ReadRegularFileParts(const std::string& path,
+                          const std::function<bool(std::string_view part)>& take);
 
 /// "4 MiB", "1 GiB": the largest binary unit that divides the bytes.
 std::string BinarySize(std::uint64_t bytes);

@@ -29,17 +29,21 @@ std::string Sha256Hash::Finish() {
   return {digest.begin(), digest.begin() + size};
 }
 
-std::string Sha256(std::string_view bytes) {
+std::string Sha256Hash::FinishHex() {
   constexpr std::string_view kDigits = "0123456789abcdef";
-  Sha256Hash hash;
-  hash.Add(bytes);
   std::string hex;
-  for (const char byte : hash.Finish()) {
+  for (const char byte : Finish()) {
     const unsigned value = static_cast<unsigned char>(byte);
     hex += kDigits[value >> 4];
     hex += kDigits[value & 15];
   }
   return hex;
+}
+
+std::string Sha256(std::string_view bytes) {
+  Sha256Hash hash;
+  hash.Add(bytes);
+  return hash.FinishHex();
 }
 
 }  // namespace halfstep

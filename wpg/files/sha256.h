@@ -16,6 +16,7 @@ class Sha256Hash {
   void Add(std::string_view bytes);  ///< more of what is hashed
   /// The 32 bytes of the digest; nothing may be added after it.
   std::string Finish();
+  std::string FinishHex();  ///< the same in lower-case hexadecimal
 
  private:
   std::unique_ptr<evp_md_ctx_st, void (*)(evp_md_ctx_st*)> context_;

@@ -9,8 +9,8 @@
 #include <cstring>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
-#include "wpg/files/descriptor.h"
 #include "wpg/files/partial_sibling.h"
 
 namespace halfstep {
@@ -28,16 +28,13 @@ void Sync(int fd, const fs::path& shown) {
   if (fsync(fd) != 0) Fail(shown, errno);
 }
 
-void WriteAll(int fd, const std::vector<std::string_view>& parts, const fs::path& shown) {
-  for (std::string_view content : parts) {
-    while (!content.empty()) {
-      const ssize_t n = write(fd, content.data(), content.size());
-      if (n < 0 && errno == EINTR) continue;
-      if (n < 0) Fail(shown, errno);
-      content.remove_prefix(static_cast<size_t>(n));
-    }
+void Write(int fd, std::string_view content, const fs::path& shown) {
+  while (!content.empty()) {
+    const ssize_t n = write(fd, content.data(), content.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) Fail(shown, errno);
+    content.remove_prefix(static_cast<size_t>(n));
   }
-  Sync(fd, shown);
 }
 
 void CheckReplaceable(const fs::path& path) {
@@ -51,11 +48,20 @@ void CheckReplaceable(const fs::path& path) {
 
 }  // namespace
 
+SyncedFile::SyncedFile(const fs::path& path, fs::path shown)
+    : shown_(std::move(shown)), file_(path, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW) {
+  if (file_.get() < 0) Fail(shown_, errno);
+}
+
+void SyncedFile::Add(std::string_view part) { Write(file_.get(), part, shown_); }
+
+void SyncedFile::Sync() { halfstep::Sync(file_.get(), shown_); }
+
 void WriteSynced(const fs::path& path, const std::vector<std::string_view>& parts,
                  const fs::path& shown) {
-  const Descriptor file(path, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW);
-  if (file.get() < 0) Fail(shown, errno);
-  WriteAll(file.get(), parts, shown);
+  SyncedFile file(path, shown);
+  for (const std::string_view part : parts) file.Add(part);
+  file.Sync();
 }
 
 void WriteWhole(const fs::path& path, const std::vector<std::string_view>& parts) {
@@ -66,7 +72,8 @@ void WriteWhole(const fs::path& path, const std::vector<std::string_view>& parts
   CheckReplaceable(path);
   RemoveAbandonedSiblings(folder, path.filename().string());
   PartialSibling partial(path, PartialSibling::Kind::kFile);
-  WriteAll(partial.descriptor(), parts, path);
+  for (const std::string_view part : parts) Write(partial.descriptor(), part, path);
+  Sync(partial.descriptor(), path);
   if (rename(partial.path().c_str(), path.c_str()) != 0) Fail(path, errno);
   partial.Release();
   SyncFolder(folder, path);

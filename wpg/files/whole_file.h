@@ -4,7 +4,22 @@
 #include <string_view>
 #include <vector>
 
+#include "wpg/files/descriptor.h"
+
 namespace halfstep {
+
+/// A new file whose content comes in parts, which are not kept.
+class SyncedFile {
+ public:
+  /// Nothing may have the name yet. Throws as WriteSynced, as do all of its functions.
+  SyncedFile(const std::filesystem::path& path, std::filesystem::path shown);
+  void Add(std::string_view part);  ///< more of it
+  void Sync();                      ///< to the disk; to be called last
+
+ private:
+  std::filesystem::path shown_;
+  Descriptor file_;
+};
 
 /// Writes a new file's content, its parts one after the other, and syncs it to the disk; nothing
 /// may have the name yet. Throws std::runtime_error that names `shown` and the system's reason,

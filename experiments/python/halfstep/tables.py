@@ -6,6 +6,7 @@ import csv
 import io
 import json
 import os
+import pathlib
 from collections.abc import Iterator, Mapping
 from typing import Any
 
@@ -128,9 +129,12 @@ def of_text(parts: tuple[list, str]) -> Table:
 
 
 def of_file(path: str | os.PathLike) -> Table:
-    """A table of NAME.csv, with the types and units of NAME.schema.json beside it."""
-    schema_path = os.fspath(path)[:-len(".csv")] + ".schema.json"
-    with open(schema_path, encoding="utf-8") as file:
+    """A table of NAME.csv, with the types and units of NAME.schema.json beside it, or, of one of
+    many such tables, in the folder above."""
+    schema = pathlib.Path(path).with_suffix(".schema.json")
+    if not schema.exists():
+        schema = schema.parent.parent / schema.name
+    with open(schema, encoding="utf-8") as file:
         fields = json.load(file)["fields"]
     columns = [(f["name"], f["type"], f.get("unit", ""), f.get("description", "")) for f in fields]
     with open(path, encoding="utf-8", newline="") as file:
