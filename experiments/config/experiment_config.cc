@@ -233,13 +233,13 @@ void DeclareFields(Fields& fields, ExperimentConfig* c) {
                .required = true});
   DeclareStart(fields, c);
   DeclareWay(fields, c);
-  fields.Group("planner", {.meaning = "of the way to the goal"},
+  fields.Group("planner", {.meaning = "how the way to the goal is found"},
                [&](Fields& f) { DeclarePlanner(f, &c->planner); });
   fields.Renamed("half_steps", "step_set");
   fields.Group("step_set", {.meaning = "places that the planner chooses from"},
                [&](Fields& f) { DeclareStepSet(f, &c->step_set); });
   ComplainOutsideWorkspace(fields, *c);
-  fields.Group("swept_volumes", {.meaning = "that are baked of them"},
+  fields.Group("swept_volumes", {.meaning = "that half-steps of the set sweep"},
                [&](Fields& f) { DeclareSweptVolumes(f, &c->swept_volumes); });
   fields.Group("half_step", {.meaning = "the isolated half-step"},
                [&](Fields& f) { DeclareHalfStep(f, &c->half_step); });
