@@ -198,9 +198,10 @@ ExitStatus WalkOnce(const Prepared& all, ServedEpisode* served, replay::EpisodeP
   }
   folder->Publish();
   journal.Remove();
-  if (served != nullptr) served->End(episode, folder->path().string());
   PrintSummary(command, episode, was_true ? &*was_true : nullptr, place, config,
                folder->path().string(), outcome);
+  std::cout << std::flush;  // before clients go, and perhaps come again
+  if (served != nullptr) served->End(episode, folder->path().string());
   if (interrupt.requested() && episode.ending != EpisodeEnding::kArrived) return kInterrupted;
   return WentWell(episode, outcome) ? kSuccess : kFailed;
 }

@@ -2,7 +2,7 @@
 
 const statePeriod = 0.03; // at least; the control period when that is longer [s]
 const motionSpan = 3; // of the walk to come [s]
-const comeBackAfter = 300; // [ms]
+const comeBackAfter = 1000; // [ms]
 
 export class SocketSource {
   /** Calls onMessage(object) for each message, onState(text, isOpen) when the connection changes. */
