@@ -11,6 +11,7 @@
 #include "experiments/config/experiment.h"
 #include "experiments/config/folder_name.h"
 #include "experiments/config/footsteps_key.h"
+#include "experiments/config/grouped_keys.h"
 #include "experiments/config/scaled_defaults.h"
 #include "smoothing/margins/family_traits.h"
 #include "smoothing/walk/homotopy_parameters.h"
@@ -300,6 +301,8 @@ ExperimentConfig ParseConfig(const std::string& path, const std::string& text,
   ReadYamlText(text, path, file.parent_path().string(), overrides, [&](Fields& fields) {
     DeclareFields(fields, &config);
     fields.Misplaced("live", "this is the config of an episode (valid: `halfstep live` takes it)");
+    static const std::vector<KeyDescription> keys = ConfigKeys({});
+    RefuseKeysOfGroups(fields, keys);
     config.directory = fields.directory();
     DeclareFilesThere(fields, config);
   });

@@ -9,11 +9,21 @@ namespace {
 
 // What values of options and arguments are names of, as `halfstep list` prints them first.
 struct Listed {
+  const char* command;  // "": any
   const char* name;
   const char* list;
 };
-constexpr std::array kListed = {Listed{"--robot", "robots"}, Listed{"--method", "methods"},
-                                Listed{"CONFIG", "configs"}};
+constexpr std::array kListed = {Listed{"live", "CONFIG", "episodes"},
+                                Listed{"", "CONFIG", "configs"}, Listed{"", "SWEEP", "sweeps"},
+                                Listed{"", "--robot", "robots"}, Listed{"", "--method", "methods"}};
+
+std::string ListOf(const std::string& command, const std::string& typed) {
+  for (const Listed& listed : kListed) {
+    if (typed != listed.name) continue;
+    if (*listed.command == '\0' || command == listed.command) return listed.list;
+  }
+  return "";
+}
 
 std::string FirstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
 
@@ -28,9 +38,7 @@ std::vector<CompletedOption> CompletedOptionsOf(const CLI::App& app) {
                         .values = ChoicesOf(*option),
                         .list = ""};
     const std::string typed = one.names.empty() ? option->get_name(true) : one.names.back();
-    for (const Listed& listed : kListed) {
-      if (typed == listed.name) one.list = listed.list;
-    }
+    one.list = ListOf(app.get_name(), typed);
     all.push_back(std::move(one));
   }
   return all;
