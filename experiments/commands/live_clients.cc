@@ -84,7 +84,10 @@ void PrintPlaces(const LiveCommand& command, const ServedEpisode& served) {
   screen << (command.in_physics ? "clock        lockstep; the robot waits for the client that "
                                   "controls it\n"
                                 : "clock        wall, as clients need it\n")
-         << (command.wait ? "waits        for its first client\n" : "") << std::flush;
+         << (command.wait ? "waits        for its first client\n" : "")
+         << (command.view ? "ends         by End on the page, Ctrl-C, or after live.longest_s\n"
+                          : "")
+         << std::flush;
 }
 
 }  // namespace halfstep
