@@ -20,7 +20,7 @@ FORMS = LIMIT | {f"smoothing.optimizer.{key}": "false"
                  for key in ("heights", "durations", "all_families")}
 # Of each run: what it sets, and its methods with the column that each fills.
 RUNS = [
-    ({}, {"dichotomy": "dichotomy", "halfstep/sqp": "`halfstep/sqp`, **the default**"}),
+    ({}, {"dichotomy": "dichotomy", "halfstep/sqp": "`halfstep/sqp`, **default demands**"}),
     # The grid is scanned to its end.
     (LIMIT | {"smoothing.optimizer.effort": "60"},
      {"dichotomy/uniform": "`limit`: best uniform T and η, then dichotomy"}),
@@ -29,7 +29,7 @@ RUNS = [
      {"halfstep/sqp": "`limit`: `halfstep/sqp`, Δ, η, T"}),
     (LIMIT, {"halfstep/sqp": "`limit`: `halfstep/sqp`, every family"}),
 ]
-COLUMNS = ["dichotomy", "`halfstep/sqp`, **the default**",
+COLUMNS = ["dichotomy", "`halfstep/sqp`, **default demands**",
            "`limit`: best uniform T and η, then dichotomy", "`limit`: `halfstep/sqp`, Δ alone",
            "`limit`: `halfstep/sqp`, Δ, η, T", "`limit`: `halfstep/sqp`, every family"]
 

@@ -66,7 +66,8 @@ fi
 
 for preset in $presets; do
   start=$(date +%s)
-  quietly "build/$preset-configure.log" cmake --preset "$preset" -DHALFSTEP_BENCHMARKS=OFF
+  quietly "build/$preset-configure.log" cmake --preset "$preset" -DHALFSTEP_BENCHMARKS=OFF \
+    -DHALFSTEP_TESTING=ON
   quietly "build/$preset-build.log" cmake --build --preset "$preset" -j "$jobs"
   built=$(date +%s)
   except="$all_only"

@@ -13,6 +13,7 @@ namespace {
 // The cases of one cell.
 struct Cell {
   int cases = 0, solved = 0, certified = 0, crouched = 0;
+  std::map<std::string, int> not_solved;  // by status
   std::vector<double> footsteps, smoothed, effort;
 };
 
@@ -44,7 +45,7 @@ std::string BenchTable(const std::string& bench_csv) {
   const CsvTable table = ParseCsv(bench_csv, "bench.csv");
   const auto kinds = table.Texts("kind"), planners = table.Texts("planner"),
              difficulties = table.Texts("difficulty"), solved = table.Texts("solved"),
-             certified = table.Texts("certified");
+             certified = table.Texts("certified"), statuses = table.Texts("status");
   const auto footsteps = table.Numbers("footsteps"), effort = table.Numbers("effort"),
              crouch = table.Numbers("crouch_m");
   const auto smoothed = table.NumbersOrEmpty("smoothed_s");
@@ -64,7 +65,10 @@ std::string BenchTable(const std::string& bench_csv) {
       Cell& cell = cells[row][planners[i]];
       ++cell.cases;
       cell.effort.push_back(effort[i]);
-      if (solved[i] != "true") continue;
+      if (solved[i] != "true") {
+        ++cell.not_solved[statuses[i]];
+        continue;
+      }
       ++cell.solved;
       cell.certified += certified[i] == "true" ? 1 : 0;
       cell.crouched += crouch[i] > 0.0 ? 1 : 0;
@@ -82,8 +86,12 @@ std::string BenchTable(const std::string& bench_csv) {
       "\neach: solved, and of what is solved the medians of footsteps and of the smoothed walk\n";
   for (const std::string& planner : columns) {
     const Cell& all = cells[{"all", "all"}][planner];
-    text += planner + Formatted(": %d smoothed walks certified, %d crouched; median effort %.3g\n",
+    text += planner + Formatted(": %d smoothed walks certified, %d crouched; median effort %.3g",
                                 all.certified, all.crouched, Median(all.effort));
+    for (const auto& [status, count] : all.not_solved) {
+      text += "; " + status + " " + std::to_string(count);
+    }
+    text += "\n";
   }
   return text;
 }

@@ -188,7 +188,7 @@ TrajectoryCheck CheckWalk(const WalkMotion& motion, const RobotModel& robot, con
     }
     check.not_covered.push_back(
         std::string(verify::kFamilyNames[f]) +
-        (known ? ": there is nothing that this is about" : ": is demanded, and not examined here"));
+        (known ? ": does not apply here" : ": is demanded, and not examined here"));
   }
   check.Sort();
   return check;

@@ -61,7 +61,8 @@ std::vector<std::string> CertifiedMethods(const std::string& run,
                                           const std::optional<std::string>& method) {
   const fs::path manifest = fs::path(run) / "manifest.json";
   if (!fs::is_regular_file(manifest)) {
-    throw InputError({run + ": no such run folder (valid: one that `halfstep run` wrote)"});
+    throw InputError({run + ": no such run folder (" + DidYouMeanRun(run) +
+                      "valid: one that `halfstep run` wrote)"});
   }
   const std::string text = ReadBytes(manifest.string());
   if (verify::IsOfEpisode(manifest.string(), text)) {

@@ -21,6 +21,7 @@
 #include "smoothing/margins/not_covered_by.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/sha256.h"
+#include "wpg/files/suggestion.h"
 
 namespace halfstep {
 namespace {
@@ -75,8 +76,8 @@ ExitStatus Certify(const CertifyCommand& command) {
   InterruptGuard interrupt;
   const fs::path run(command.run);
   if (!fs::is_directory(run)) {
-    throw InputError(
-        {command.run + ": no such run folder (valid: a folder that `halfstep run` wrote)"});
+    throw InputError({command.run + ": no such run folder (" + DidYouMeanRun(command.run) +
+                      "valid: a folder that `halfstep run` wrote)"});
   }
   ExperimentConfig config =
       LoadConfig((run / "config.yaml").string(), command.overrides, command.tools);

@@ -46,6 +46,8 @@ struct RobotModel;
 struct RunCommand;
 /// Declares --overwrite, --quiet and --json, for commands that write a run.
 void DeclareRunFlags(CLI::App* app, RunCommand* command);
+/// Declares --method of a command that smooths.
+void DeclareMethods(CLI::App* app, RunCommand* command);
 
 /// The folder that a command writes: `--out`, the config's, or runs/NAME. Throws InputError for an
 /// empty `--out`.

@@ -20,6 +20,7 @@ namespace halfstep {
 
 struct RunCommand {
   std::string config;
+  std::vector<std::string> methods;  ///< in place of smoothing.methods when not empty
   std::vector<YamlOverride> overrides;
   std::optional<std::string> out;  ///< run folder
   bool overwrite = false;
@@ -119,8 +120,7 @@ struct CheckCommand {
 ExitStatus CheckMotion(const CheckCommand& command);
 
 struct SmoothCommand {
-  RunCommand run;                    ///< `config` may be a run folder too; then its config.yaml
-  std::vector<std::string> methods;  ///< in place of smoothing.methods when not empty
+  RunCommand run;  ///< `config` may be a run folder too; then its config.yaml
   /// Tables of a walk of one's own: then the methods are `given` and `methods`.
   std::vector<std::string> given;
 };

@@ -44,7 +44,9 @@ std::vector<Entry> Solvers(const Toolbox& tools) {
 std::vector<Entry> Entries(const std::string& what, const Toolbox& tools) {
   if (what == "robots") return FilesOf(RobotsFolder());
   if (what == "scenes") return FilesOf(ScenesFolder());
-  if (what == "configs") return FilesOf(DataFolder() / "configs");
+  for (const char* folder : {"configs", "episodes", "sweeps"}) {
+    if (what == folder) return FilesOf(DataFolder() / folder);
+  }
   if (what == "solvers") return Solvers(tools);
   std::vector<Entry> entries;
   if (what == "planners") {
@@ -88,10 +90,11 @@ CommandAction DeclareList(CLI::App* app, const Toolbox& tools) {
   };
   const auto options = std::make_shared<Options>();
   app->add_option("WHAT", options->what,
-                  "robots, scenes, configs, solvers, methods, planners or half-steps")
+                  "robots, scenes, configs, episodes, sweeps, solvers, methods, planners or "
+                  "half-steps")
       ->required()
-      ->check(
-          OneOf({"robots", "scenes", "configs", "solvers", "methods", "planners", "half-steps"}));
+      ->check(OneOf({"robots", "scenes", "configs", "episodes", "sweeps", "solvers", "methods",
+                     "planners", "half-steps"}));
   app->add_option("CONFIG", options->config, "whose half-steps (half-steps only)");
   app->add_flag("--json", options->json, "print JSON");
   return [options, tools] {

@@ -1,10 +1,12 @@
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
 
 #include "experiments/commands/command_line.h"
 #include "experiments/commands/commands.h"
+#include "experiments/commands/live_clients.h"
 #include "experiments/commands/push_option.h"
 #include "experiments/commands/simulated_robot_options.h"
 #include "experiments/live/episode.h"
@@ -15,93 +17,18 @@
 #include "experiments/live/judged_promise.h"
 #include "experiments/live/spare_boxes.h"
 #include "experiments/replay/physics_record.h"
-#include "experiments/report/live_page.h"
-#include "experiments/report/report_page.h"
 #include "experiments/run/interrupt.h"
 #include "experiments/run/planning.h"
 #include "experiments/run/progress_bar.h"
-#include "experiments/server/served_episode.h"
+#include "experiments/tables/run_folder.h"
 #include "smoothing/margins/not_covered_by.h"
 #include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {
 
-bool IsServed(const LiveCommand& command) { return command.view || command.socket; }
-// Whether a client controls the robot.
-bool IsClientControlled(const LiveCommand& command) {
-  return command.simulated.controller == kClientController;
-}
-
-// Throws InputError for a client that controls without a socket, or a socket in physics without
-// one.
-void CheckClientControl(const LiveCommand& command) {
-  if (IsClientControlled(command) && !(command.in_physics && command.socket)) {
-    throw InputError(
-        {"--controller client: no client can come (valid: with --in-physics and --serve)"});
-  }
-  if (IsClientControlled(command)) return;
-  if (command.in_physics && command.socket) {
-    throw InputError(
-        {"--serve: in physics a client controls the robot (valid: with --controller "
-         "client)"});
-  }
-  if (command.answer_within) {
-    throw InputError({"--answer-within: no client is asked (valid: with --controller client)"});
-  }
-}
-
-// The config as the episode goes on. Throws InputError for what this build or command cannot do.
-LiveConfig Adapted(const LiveCommand& command, const LiveConfig& config) {
-  if (const std::string why = replay::WhyNoSimulation(); command.in_physics && !why.empty()) {
-    throw InputError({"--in-physics: " + why});
-  }
-  CheckClientControl(command);
-  if (command.wait && !IsServed(command)) {
-    throw InputError({"--wait: no client can come (valid: with --view or --serve)"});
-  }
-  if (IsServed(command)) {
-    if (!WhyNoServer().empty()) throw InputError({"--view, --serve: " + WhyNoServer()});
-    if (command.view && !HasReport()) {
-      throw InputError({"--view: this build has no page, as it has no report (valid: --serve)"});
-    }
-    if (!command.in_physics) return ServedEpisode::Served(config);
-  }
-  if (config.live.sensing.source == "client") {
-    throw InputError({command.run.config + ": live.sensing.source: client, but " +
-                      (IsServed(command) ? "the world of a simulated robot is measured from it "
-                                           "(valid: stand_in)"
-                                         : "no client can come (valid: with --serve or --view, or "
-                                           "stand_in)")});
-  }
-  return IsServed(command) ? ServedEpisode::Controlled(config) : config;
-}
-
-// Tells where clients find the episode, at once.
-void PrintPlaces(const LiveCommand& command, const ServedEpisode& served) {
-  std::ostream& screen = command.run.json || command.run.quiet ? std::cerr : std::cout;
-  if (command.view) screen << "view         " << served.address() << '\n';
-  if (command.socket) screen << "socket       " << *command.socket << '\n';
-  screen << (command.in_physics ? "clock        lockstep; the robot waits for the client that "
-                                  "controls it\n"
-                                : "clock        wall, as clients need it\n")
-         << (command.wait ? "waits        for its first client\n" : "") << std::flush;
-}
-
-std::unique_ptr<ServedEpisode> Serve(const LiveCommand& command, const LiveConfig& config,
-                                     const Place& place, const TrueWorld& truth,
-                                     const std::stop_token& stop) {
-  if (!IsServed(command)) return nullptr;
-  const ServerOptions options{.view = command.view,
-                              .port = command.port,
-                              .page = [](const std::string& socket) { return LivePage(socket); },
-                              .socket_path = command.socket.value_or("")};
-  return command.in_physics
-             ? std::make_unique<ServedEpisode>(
-                   config, place, options,
-                   ClientControl::Options{.patience = command.answer_within, .stop = stop})
-             : std::make_unique<ServedEpisode>(config, place, truth, options);
-}
+namespace fs = std::filesystem;
 
 // The robot that executes the walk in physics.
 replay::EpisodeRobot RobotOf(const LiveCommand& command, const LiveConfig& config,
@@ -213,6 +140,72 @@ Thinking Prepare(const Place& place, bool silent, const std::stop_token& stop, L
   return made;
 }
 
+// A name for the folder of the episode that begins anew for the `number`-th time: "runs/a_2", or
+// the next one that is free.
+fs::path NextFolder(const fs::path& first, bool overwrite, int* number) {
+  const auto named = [&] { return fs::path(first.string() + Formatted("_%d", ++*number)); };
+  fs::path next = named();
+  while (!overwrite && (fs::exists(fs::symlink_status(next)) ||
+                        fs::exists(fs::symlink_status(EpisodeJournal::FolderOf(next))))) {
+    next = named();
+  }
+  return next;
+}
+
+// What all episodes of a command have; borrowed.
+struct Prepared {
+  const LiveCommand& command;
+  const LiveConfig& config;
+  const Place& place;
+  const TrueWorld& truth;
+  const Thinking& thinking;
+  InterruptGuard& interrupt;
+};
+
+// One episode, from the first look at the world to its folder. `served`, `simulated`: null where
+// there are no clients, and no physics.
+ExitStatus WalkOnce(const Prepared& all, ServedEpisode* served, replay::EpisodePhysics* simulated,
+                    RunFolder* folder) {
+  const auto& [command, initial, place, truth, thinking, interrupt] = all;
+  LiveConfig config = initial;
+  if (served != nullptr) served->Prepare(thinking.volumes);
+  if (command.wait) served->WaitForClient(interrupt.token());
+  std::optional<ProgressBar> bar;
+  bar.emplace("episode", command.run.quiet || command.run.json);
+  EpisodeJournal journal(folder->path(), config, command.run.overwrite);
+  interrupt.Keep("halfstep recover " + folder->path().string());
+  const TrueWorld seen = simulated != nullptr ? simulated->SeenByRobot() : truth;
+  StandInSensor sensor(seen, config.live, static_cast<std::uint64_t>(config.experiment.seed) + 1);
+  const auto on_tick = [&](const EpisodeTick& tick) {
+    if (simulated != nullptr) simulated->Play(tick);
+    journal.Write(tick);
+    bar->Update(tick.now / config.live.longest);
+  };
+  EpisodeHooks hooks{.on_tick = on_tick, .stop = interrupt.token()};
+  if (simulated != nullptr) AddPhysics(simulated, &hooks);
+  Episode episode = Walk(config, *thinking.replanner, place, &sensor, served, hooks);
+  bar.reset();
+  if (!journal.failure().empty()) std::cerr << "halfstep: warning: " << journal.failure() << '\n';
+  if (served != nullptr && served->sensor() != nullptr) config.live.script = served->Script();
+  const std::optional<TrueWorld> was_true = WhatWasTrue(config, place, simulated, episode.waited);
+  episode.promise = JudgePromise(episode, was_true ? &*was_true : nullptr, place, config.live);
+  if (simulated != nullptr) episode.promise.judged_by = "simulation";
+  WriteEpisode(episode, config, place, folder);
+  std::optional<replay::PhysicalOutcome> outcome;
+  if (simulated != nullptr) {
+    outcome = simulated->Finish(episode);
+    WritePhysics(*outcome, place.robot, place.scene, folder);
+  }
+  folder->Publish();
+  journal.Remove();
+  PrintSummary(command, episode, was_true ? &*was_true : nullptr, place, config,
+               folder->path().string(), outcome);
+  std::cout << std::flush;  // before clients go, and perhaps come again
+  if (served != nullptr) served->End(episode, folder->path().string());
+  if (interrupt.requested() && episode.ending != EpisodeEnding::kArrived) return kInterrupted;
+  return WentWell(episode, outcome) ? kSuccess : kFailed;
+}
+
 }  // namespace
 
 ExitStatus Live(const LiveCommand& command) {
@@ -223,58 +216,34 @@ ExitStatus Live(const LiveCommand& command) {
   LiveConfig& config = loaded.config;
   const Place& place = loaded.place;
   TellWarnings(place.robot, place.scene);
+  // A folder that is in the way is told before anything is computed, and anybody has come.
+  const fs::path out = OutputFolder(command.run, config.experiment);
+  std::optional<RunFolder> folder(std::in_place, out, command.run.overwrite);
   const TrueWorld truth(place.scene, config.experiment.goal, config.live);
-  const std::unique_ptr<ServedEpisode> served =
-      Serve(command, config, place, truth, interrupt.token());
-  // What the options of the simulated robot say is refused before anything is computed.
+  std::unique_ptr<ServedEpisode> served =
+      Serve(command, config, place, truth, interrupt.token(), "");
+  // So is what is wrong with options of the simulated robot.
   std::optional<replay::EpisodePhysics> simulated;
   if (command.in_physics) {
     simulated.emplace(RobotOf(command, config, served.get()), truth, config.live);
   }
   if (served) PrintPlaces(command, *served);
-  const bool silent = command.run.quiet || command.run.json;
-  const Thinking thinking = Prepare(place, silent, interrupt.token(), &config);
+  const Thinking thinking =
+      Prepare(place, command.run.quiet || command.run.json, interrupt.token(), &config);
   if (!thinking.replanner) {
     std::cerr << "halfstep: interrupted before the episode began\n";
     return kInterrupted;
   }
-  if (served) served->Prepare(thinking.volumes);
-  if (command.wait) served->WaitForClient(interrupt.token());
-  RunFolder folder(OutputFolder(command.run, config.experiment), command.run.overwrite);
-  std::optional<ProgressBar> bar;
-  bar.emplace("episode", silent);
-  EpisodeJournal journal(folder.path(), config, command.run.overwrite);
-  interrupt.Keep("halfstep recover " + folder.path().string());
-  const TrueWorld seen = simulated ? simulated->SeenByRobot() : truth;
-  StandInSensor sensor(seen, config.live, static_cast<std::uint64_t>(config.experiment.seed) + 1);
-  const auto on_tick = [&](const EpisodeTick& tick) {
-    if (simulated) simulated->Play(tick);
-    journal.Write(tick);
-    bar->Update(tick.now / config.live.longest);
-  };
-  EpisodeHooks hooks{.on_tick = on_tick, .stop = interrupt.token()};
-  if (simulated) AddPhysics(&*simulated, &hooks);
-  Episode episode = Walk(config, *thinking.replanner, place, &sensor, served.get(), hooks);
-  bar.reset();
-  if (!journal.failure().empty()) std::cerr << "halfstep: warning: " << journal.failure() << '\n';
-  if (served && served->sensor() != nullptr) config.live.script = served->Script();
-  const std::optional<TrueWorld> was_true =
-      WhatWasTrue(config, place, simulated ? &*simulated : nullptr, episode.waited);
-  episode.promise = JudgePromise(episode, was_true ? &*was_true : nullptr, place, config.live);
-  if (simulated) episode.promise.judged_by = "simulation";
-  WriteEpisode(episode, config, place, &folder);
-  std::optional<replay::PhysicalOutcome> outcome;
-  if (simulated) {
-    outcome = simulated->Finish(episode);
-    WritePhysics(*outcome, place.robot, place.scene, &folder);
+  const Prepared all{command, config, place, truth, thinking, interrupt};
+  for (int number = 1;;) {
+    const ExitStatus status =
+        WalkOnce(all, served.get(), simulated ? &*simulated : nullptr, &*folder);
+    if (!served || !served->again() || interrupt.requested()) return status;
+    const std::string address = served->address();
+    served.reset();  // its socket goes with it
+    served = Serve(command, config, place, truth, interrupt.token(), address);
+    folder.emplace(NextFolder(out, command.run.overwrite, &number), command.run.overwrite);
   }
-  folder.Publish();
-  journal.Remove();
-  if (served) served->End(episode, folder.path().string());
-  PrintSummary(command, episode, was_true ? &*was_true : nullptr, place, config,
-               folder.path().string(), outcome);
-  if (interrupt.requested() && episode.ending != EpisodeEnding::kArrived) return kInterrupted;
-  return WentWell(episode, outcome) ? kSuccess : kFailed;
 }
 
 CommandAction DeclareLive(CLI::App* app, const Toolbox& tools) {

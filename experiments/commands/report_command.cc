@@ -24,6 +24,7 @@
 #include "experiments/tables/run_folder.h"
 #include "experiments/tables/run_record.h"
 #include "wpg/files/input_error.h"
+#include "wpg/files/suggestion.h"
 #include "wpg/files/whole_file.h"
 
 namespace halfstep {
@@ -150,9 +151,8 @@ void CheckOptions(const ReportCommand& command, const fs::path& run) {
 ExitStatus Report(const ReportCommand& command) {
   const fs::path run(command.run);
   if (!fs::is_directory(run) || !fs::exists(run / "manifest.json")) {
-    throw InputError(
-        {command.run +
-         ": no such run folder (valid: a folder that `halfstep run`, `live` or `sweep` wrote)"});
+    throw InputError({command.run + ": no such run folder (" + DidYouMeanRun(command.run) +
+                      "valid: a folder that `halfstep run`, `live` or `sweep` wrote)"});
   }
   if (!HasReport()) {
     throw std::runtime_error(

@@ -154,7 +154,8 @@ bool Walk(const RobotModel& robot, const RobotFiles& files, bool quiet,
 [[noreturn]] void Refuse(const RobotDraft& draft, std::vector<std::string> complaints,
                          const fs::path& file) {
   WriteWhole(file, {RefusedYamlOf(draft, complaints)});
-  complaints.push_back("written: " + file.string() + ", what was found, marked as refused");
+  complaints.push_back("written: " + file.string() +
+                       ", what was found, marked as refused; --overwrite replaces it");
   throw InputError(std::move(complaints));
 }
 

@@ -19,6 +19,8 @@
 #include "experiments/run/progress_bar.h"
 #include "experiments/run/run_screen.h"
 #include "wpg/files/input_error.h"
+#include "wpg/files/suggestion.h"
+#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {
@@ -102,12 +104,31 @@ bool TellWhatDidNotWork(const ExperimentRun& whole, bool wants_plan) {
   return did_not;
 }
 
+// "[dichotomy, ipopt]": the value of smoothing.methods.
+std::string MethodList(const std::vector<std::string>& methods,
+                       const std::vector<std::string>& known) {
+  std::string list;
+  for (const std::string& method : methods) {
+    if (std::find(known.begin(), known.end(), method) == known.end()) {
+      throw InputError(
+          {"--method " + Quote(method) + ": no such method" + Suggestion(method, known)});
+    }
+    list += (list.empty() ? "" : ", ") + method;
+  }
+  return "[" + list + "]";
+}
+
 }  // namespace
 
 ExitStatus Run(const RunCommand& command) {
   InterruptGuard interrupt;
   ProgressBars bars(command.quiet || command.json);
-  const ExperimentConfig config = LoadConfig(command.config, command.overrides, command.tools);
+  std::vector<YamlOverride> overrides = command.overrides;
+  if (!command.methods.empty()) {
+    overrides.push_back(
+        {"smoothing.methods", MethodList(command.methods, command.tools.methods.Names())});
+  }
+  const ExperimentConfig config = LoadConfig(command.config, overrides, command.tools);
   bars.CountEffortOf(config.smoothing.methods);
   const RunHooks hooks{
       .progress = [&bars](const std::string& what, double done) { bars.Update(what, done); },
@@ -164,6 +185,7 @@ CommandAction DeclareRun(CLI::App* app, const Toolbox& tools) {
   const auto sets = std::make_shared<std::vector<std::string>>();
   app->add_option("CONFIG", command->config, "experiment, a YAML file or a shipped one's name")
       ->required();
+  DeclareMethods(app, command.get());
   DeclareOverrides(app, "the config", sets.get());
   app->add_option("--out", command->out, "run folder (default: output.directory, or runs/NAME)");
   DeclareRunFlags(app, command.get());
@@ -171,6 +193,11 @@ CommandAction DeclareRun(CLI::App* app, const Toolbox& tools) {
     command->overrides = ParseOverrides(*sets);
     return Run(*command);
   };
+}
+
+void DeclareMethods(CLI::App* app, RunCommand* command) {
+  app->add_option("--method", command->methods, "in place of smoothing.methods; repeatable")
+      ->allow_extra_args(false);
 }
 
 void DeclareRunFlags(CLI::App* app, RunCommand* command) {

@@ -8,27 +8,11 @@
 #include "experiments/config/experiment_config.h"
 #include "experiments/tables/given_walk_file.h"
 #include "wpg/files/input_error.h"
-#include "wpg/files/suggestion.h"
-#include "wpg/files/text.h"
 
 namespace halfstep {
 namespace {
 
 namespace fs = std::filesystem;
-
-// "[dichotomy, ipopt]": the value of smoothing.methods.
-std::string MethodList(const std::vector<std::string>& methods,
-                       const std::vector<std::string>& known) {
-  std::string list;
-  for (const std::string& method : methods) {
-    if (std::find(known.begin(), known.end(), method) == known.end()) {
-      throw InputError(
-          {"--method " + Quote(method) + ": no such method" + Suggestion(method, known)});
-    }
-    list += (list.empty() ? "" : ", ") + method;
-  }
-  return "[" + list + "]";
-}
 
 // The value of smoothing.given for files that are named from the working directory.
 std::string GivenGroup(const std::vector<std::string>& files) {
@@ -59,14 +43,12 @@ ExitStatus Smooth(const SmoothCommand& command) {
     if (!given.has_filename()) given = given.parent_path();  // a trailing slash
     if (!run.out) run.out = given.string() + "-smooth";
   }
-  std::vector<std::string> methods = command.methods;
   if (!command.given.empty()) {
     run.overrides.push_back({"smoothing.given", GivenGroup(command.given)});
-    if (std::ranges::find(methods, "given") == methods.end())
-      methods.insert(methods.begin(), "given");
+    if (std::ranges::find(run.methods, "given") == run.methods.end()) {
+      run.methods.insert(run.methods.begin(), "given");
+    }
   }
-  if (!methods.empty())
-    run.overrides.push_back({"smoothing.methods", MethodList(methods, run.tools.methods.Names())});
   if (LoadConfig(run.config, run.overrides, run.tools).has_goal) {
     throw InputError({run.config +
                       ": goal: there are no footsteps to smooth (valid: a config with "
@@ -82,8 +64,7 @@ CommandAction DeclareSmooth(CLI::App* app, const Toolbox& tools) {
   app->add_option("CONFIG", command->run.config,
                   "config with footsteps, a shipped one's name, or a run folder")
       ->required();
-  app->add_option("--method", command->methods, "in place of smoothing.methods; repeatable")
-      ->allow_extra_args(false);
+  DeclareMethods(app, &command->run);
   app->add_option(
          "--given", command->given,
          "CSV files of a walk of one's own, with columns of overlaps.csv or half_steps.csv: "

@@ -126,10 +126,13 @@ fs::path FileOrShipped(const std::string& given, const std::string& folder) {
                       "valid: a path, or a name of " + Joined(names) +
                       "; `halfstep init NAME` writes a config)"});
   }
-  const std::string other = OtherKind(found, folder);
-  throw InputError({given + ": no such file (" +
-                    (other.empty() ? DidYouMean(given, names) : other) + "valid: a path, or " +
-                    Joined(names) + ")"});
+  std::string hint = OtherKind(found, folder);
+  if (hint.empty() && fs::exists(given + ".yaml", ignored)) {
+    hint = "did you mean " + Quote(given + ".yaml") + "? ";
+  }
+  if (hint.empty()) hint = DidYouMean(given, names);
+  throw InputError(
+      {given + ": no such file (" + hint + "valid: a path, or " + Joined(names) + ")"});
 }
 
 std::string UnknownRobot(const std::string& robot) {

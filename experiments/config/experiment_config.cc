@@ -11,6 +11,7 @@
 #include "experiments/config/experiment.h"
 #include "experiments/config/folder_name.h"
 #include "experiments/config/footsteps_key.h"
+#include "experiments/config/grouped_keys.h"
 #include "experiments/config/scaled_defaults.h"
 #include "smoothing/margins/family_traits.h"
 #include "smoothing/walk/homotopy_parameters.h"
@@ -233,13 +234,13 @@ void DeclareFields(Fields& fields, ExperimentConfig* c) {
                .required = true});
   DeclareStart(fields, c);
   DeclareWay(fields, c);
-  fields.Group("planner", {.meaning = "of the way to the goal"},
+  fields.Group("planner", {.meaning = "how the way to the goal is found"},
                [&](Fields& f) { DeclarePlanner(f, &c->planner); });
   fields.Renamed("half_steps", "step_set");
   fields.Group("step_set", {.meaning = "places that the planner chooses from"},
                [&](Fields& f) { DeclareStepSet(f, &c->step_set); });
   ComplainOutsideWorkspace(fields, *c);
-  fields.Group("swept_volumes", {.meaning = "that are baked of them"},
+  fields.Group("swept_volumes", {.meaning = "that half-steps of the set sweep"},
                [&](Fields& f) { DeclareSweptVolumes(f, &c->swept_volumes); });
   fields.Group("half_step", {.meaning = "the isolated half-step"},
                [&](Fields& f) { DeclareHalfStep(f, &c->half_step); });
@@ -300,6 +301,8 @@ ExperimentConfig ParseConfig(const std::string& path, const std::string& text,
   ReadYamlText(text, path, file.parent_path().string(), overrides, [&](Fields& fields) {
     DeclareFields(fields, &config);
     fields.Misplaced("live", "this is the config of an episode (valid: `halfstep live` takes it)");
+    static const std::vector<KeyDescription> keys = ConfigKeys({});
+    RefuseKeysOfGroups(fields, keys);
     config.directory = fields.directory();
     DeclareFilesThere(fields, config);
   });

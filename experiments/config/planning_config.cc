@@ -165,7 +165,7 @@ void DeclarePlanner(Fields& fields, PlannerConfig* c) {
                .otherwise = "in_time where the planner can",
                .left_out_empty = true});
   fields.Integer("max_nodes", &c->max_nodes,
-                 {.meaning = "the search ends after them", .min = 0, .max = 1000000000});
+                 {.meaning = "after so many nodes the search ends", .min = 0, .max = 1000000000});
   fields.OptionalNumber(
       "unimproved_nodes", &c->unimproved_nodes,
       {.meaning = "it ends when so many did not improve the plan; 0: at the first plan; none: of "
@@ -190,9 +190,10 @@ void DeclarePlanner(Fields& fields, PlannerConfig* c) {
        .unit = "s",
        .min = 0,
        .max = 86400});
-  fields.Integer(
-      "max_refusals", &c->max_refusals,
-      {.meaning = "plans whose concatenation may fail to be certified", .min = 1, .max = 1000});
+  fields.Integer("max_refusals", &c->max_refusals,
+                 {.meaning = "so many plans may fail to be certified, then planning ends",
+                  .min = 1,
+                  .max = 1000});
   fields.Numbers(
       "workspace_m", &c->workspace, 0,
       {.meaning = "x_min, y_min, x_max, y_max of supporting soles; []: 2 m around start and goal",
@@ -203,14 +204,20 @@ void DeclarePlanner(Fields& fields, PlannerConfig* c) {
   if (!w.empty() && (w.size() != 4 || !(w[0] < w[2]) || !(w[1] < w[3]))) {
     fields.Complain("workspace_m", "is no box (valid: [x_min, y_min, x_max, y_max], or [])");
   }
-  fields.Group("estimate", {.meaning = "`smoothed_duration` of a step"}, [&](Fields& f) {
-    f.Number("step_s", &c->estimate.step_time,
-             {.meaning = "at least", .unit = "s", .min = 0.01, .max = 100});
-    f.Number("per_metre_s", &c->estimate.time_per_metre,
-             {.meaning = "more for the way of its foot", .unit = "s/m", .min = 0, .max = 100});
-    f.Number("per_radian_s", &c->estimate.time_per_radian,
-             {.meaning = "more for its turn", .unit = "s/rad", .min = 0, .max = 100});
-  });
+  fields.Group(
+      "estimate", {.meaning = "how the cost `smoothed_duration` of a step is made up"},
+      [&](Fields& f) {
+        f.Number("step_s", &c->estimate.step_time,
+                 {.meaning = "of any step", .unit = "s", .min = 0.01, .max = 100});
+        f.Number(
+            "per_metre_s", &c->estimate.time_per_metre,
+            {.meaning = "for each metre that its foot goes", .unit = "s/m", .min = 0, .max = 100});
+        f.Number("per_radian_s", &c->estimate.time_per_radian,
+                 {.meaning = "for each radian that its foot turns",
+                  .unit = "s/rad",
+                  .min = 0,
+                  .max = 100});
+      });
   fields.Group("rrt", {.meaning = "options of `rrt`, and of the trees of `best`"}, [&](Fields& f) {
     f.Number("goal_bias", &c->options.rrt.goal_bias,
              {.meaning = "share of the samples in the goal", .min = 0, .max = 1});

@@ -114,7 +114,7 @@ json Messages(const Episode& episode, const LiveConfig& config, const Place& pla
 }
 
 std::string OutcomeOf(const Episode& episode, const LiveConfig& config, size_t k) {
-  std::string outcome = "recording, " + std::string(Name(episode.ending)) +
+  std::string outcome = std::string(Name(episode.ending)) +
                         Formatted(" after %.2f s, ", episode.end) + config.live.clock +
                         ", policy " + config.live.policy + "; " + PromiseSentence(episode.promise);
   if (k > 1) {

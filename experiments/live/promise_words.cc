@@ -110,6 +110,16 @@ std::string AllNames(const std::vector<std::string>& names) {
   return names.size() > kTold ? text + Formatted(" and %zu more", names.size() - kTold) : text;
 }
 
+// Precondition: somebody did.
+std::string WhoBrokeIt(const Promise& promise) {
+  std::vector<std::string> names;
+  for (const BrokenPromise& one : promise.broken) names.push_back(one.name);
+  return AllNames(names) +
+         (names.size() == 1 ? " was not where its error and speed allow"
+                            : " were not where their errors and speeds allow") +
+         Formatted(", on which the promise rests, from %.3f s on", promise.broken.front().from);
+}
+
 }  // namespace
 
 ordered_json PromiseJson(const Promise& promise) {
@@ -148,13 +158,10 @@ std::string PromiseSentence(const Promise& promise) {
     for (const TouchedObstacle& one : promise.touched) names.push_back(one.obstacle);
     return "the robot touched " + AllNames(names) + " while it moved" +
            (promise.broken.empty() ? ", although every obstacle kept its r and v"
-                                   : ", for the promise did not hold");
+                                   : "; " + WhoBrokeIt(promise));
   }
   if (promise.broken.empty()) return "the promise held";
-  for (const BrokenPromise& one : promise.broken) names.push_back(one.name);
-  return "the promise did not hold: " + AllNames(names) + " did not keep r and v, from " +
-         Formatted("%.3f s on", promise.broken.front().from) +
-         (promise.judged_by == "measurements" ? "" : "; nothing was touched");
+  return WhoBrokeIt(promise) + (promise.judged_by == "measurements" ? "" : "; nothing was touched");
 }
 
 std::string PromiseText(const Promise& promise) {
@@ -167,12 +174,15 @@ std::string PromiseText(const Promise& promise) {
   const size_t told = std::min(promise.broken.size(), kTold);
   for (size_t i = 0; i < told; ++i) {
     const BrokenPromise& one = promise.broken[i];
-    text += (i == 0 ? "NOT kept: " : "             ") + WhatItDid(one) + "\n";
+    text += (i == 0 ? "its condition was not kept: " : "             ") + WhatItDid(one) + "\n";
     text += "             " + WhatWasUnproved(one) + "; " + WhatWouldCover(one) + "\n";
   }
   if (told < promise.broken.size()) {
     text += Formatted("             and %zu more obstacles: manifest.json has all\n",
                       promise.broken.size() - told);
+  }
+  if (promise.status() == PromiseStatus::kNotKept && promise.judged_by != "measurements") {
+    text += "             nothing was touched\n";
   }
   for (const TouchedObstacle& one : promise.touched) {
     text += "touched      " + Quote(one.obstacle) + " with " + one.body +

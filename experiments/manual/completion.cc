@@ -1,43 +1,25 @@
 #include "experiments/manual/completion.h"
 
-#include <array>
-
-#include "experiments/manual/option_words.h"
+#include "experiments/manual/completed.h"
 
 namespace halfstep {
 namespace {
 
-std::string Spaced(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
-  return text;
-}
-
-// What values of options and arguments are names of, as `halfstep list` prints them first.
-struct Listed {
-  const char* name;
-  const char* list;
-};
-constexpr std::array kListed = {Listed{"--robot", "robots"}, Listed{"--method", "methods"},
-                                Listed{"CONFIG", "configs"}};
-
-std::string WordsOf(const CLI::App& command) {
+std::string WordsOf(const CompletedCommand& command) {
   std::vector<std::string> names;
   std::string choices, of_arguments;
-  for (const CLI::Option* option : command.get_options()) {
-    const std::vector<std::string> ones = NamesOf(*option);
-    names.insert(names.end(), ones.begin(), ones.end());
-    const std::string typed = ones.empty() ? option->get_name(true) : ones.back();
-    std::string values = Spaced(ChoicesOf(*option));
-    for (const Listed& listed : kListed) {
-      if (typed == listed.name) values = std::string("$(listed ") + listed.list + ")";
-    }
+  for (const CompletedOption& option : command.options) {
+    names.insert(names.end(), option.names.begin(), option.names.end());
+    const std::string values =
+        option.list.empty() ? Joined(option.values, " ") : "$(listed " + option.list + ")";
     if (values.empty()) continue;
-    const std::string chosen = ") choices=\"" + values + "\" ;;\n";
-    (ones.empty() ? of_arguments : choices) += "        " + (ones.empty() ? "*" : typed) + chosen;
+    const bool is_argument = option.names.empty();
+    (is_argument ? of_arguments : choices) += "        " +
+                                              (is_argument ? "*" : option.names.back()) +
+                                              ") choices=\"" + values + "\" ;;\n";
   }
   choices += of_arguments;
-  std::string text = "    " + command.get_name() + ")\n      options=\"" + Spaced(names) + "\"\n";
+  std::string text = "    " + command.name + ")\n      options=\"" + Joined(names, " ") + "\"\n";
   if (!choices.empty()) text += "      case \"$before\" in\n" + choices + "      esac\n";
   return text + "      ;;\n";
 }
@@ -47,11 +29,13 @@ std::string WordsOf(const CLI::App& command) {
 std::string BashCompletion(const CLI::App& app, const std::string& program) {
   std::vector<std::string> names;
   std::string cases;
-  for (const CLI::App* command : CommandsOf(app)) {
-    names.push_back(command->get_name());
-    cases += WordsOf(*command);
+  for (const CompletedCommand& command : CompletedCommandsOf(app)) {
+    names.push_back(command.name);
+    cases += WordsOf(command);
   }
-  for (const CLI::Option* option : app.get_options()) names.push_back(NamesOf(*option).back());
+  for (const CompletedOption& option : CompletedOptionsOf(app)) {
+    names.push_back(option.names.back());
+  }
   return "# Completion of " + program + " in bash; written when it is built.\n_" + program +
          R"(() {
   local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} options="" choices=""
@@ -59,7 +43,7 @@ std::string BashCompletion(const CLI::App& app, const std::string& program) {
   COMPREPLY=()
   if [ "$COMP_CWORD" -eq 1 ]; then
     COMPREPLY=($(compgen -W ")" +
-         Spaced(names) + R"(" -- "$word"))
+         Joined(names, " ") + R"(" -- "$word"))
     return
   fi
   case "${COMP_WORDS[1]}" in

@@ -1,5 +1,5 @@
-// The build step that writes the manual page and the completion in bash: halfstep_write_manual PAGE
-// COMPLETION.
+// The build step that writes the manual page and completions: halfstep_write_manual PAGE BASH ZSH
+// FISH.
 
 #include <exception>
 #include <iostream>
@@ -12,12 +12,14 @@
 #include "wpg/files/whole_file.h"
 
 int main(int argc, char** argv) {
-  if (argc != 3) return 2;
+  if (argc != 5) return 2;
   try {
     CLI::App app;
     const auto commands = halfstep::DeclareProgram(&app, {});
     halfstep::WriteWhole(argv[1], {halfstep::ManualPage(app, std::string(halfstep::kVersion))});
     halfstep::WriteWhole(argv[2], {halfstep::BashCompletion(app, "halfstep")});
+    halfstep::WriteWhole(argv[3], {halfstep::ZshCompletion(app, "halfstep")});
+    halfstep::WriteWhole(argv[4], {halfstep::FishCompletion(app, "halfstep")});
   } catch (const std::exception& error) {
     std::cerr << error.what() << "\n";
     return 1;

@@ -1,6 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <set>
+#include <utility>
 
 #include "experiments/plot/style.h"
 #include "experiments/plot/subjects.h"
@@ -58,6 +61,37 @@ std::string WordsOf(MarginFamily family) {
   }
 }
 
+// A row of a certificate: of some statements of a family, each at least so much.
+struct ProvedRow {
+  double begin, end, least;
+};
+
+// The least of the rows at each time, as steps; nan where there is none.
+std::vector<Vector2d> LeastOverTime(const std::vector<ProvedRow>& rows) {
+  std::map<double, std::vector<std::pair<double, bool>>> changes;  // values that begin, or end
+  for (const ProvedRow& row : rows) {
+    if (!(row.begin < row.end)) continue;
+    changes[row.begin].emplace_back(row.least, true);
+    changes[row.end].emplace_back(row.least, false);
+  }
+  std::vector<Vector2d> points;
+  std::multiset<double> under_way;
+  for (auto at = changes.begin(); at != changes.end(); ++at) {
+    for (const auto& [least, begins] : at->second) {
+      if (begins) under_way.insert(least);
+    }
+    for (const auto& [least, begins] : at->second) {
+      if (!begins) under_way.erase(under_way.find(least));
+    }
+    const auto next = std::next(at);
+    if (next == changes.end()) break;
+    const double least = under_way.empty() ? std::nan("") : *under_way.begin();
+    points.emplace_back(at->first, least);
+    points.emplace_back(next->first, least);
+  }
+  return points;
+}
+
 std::map<std::string, Proved> ReadProved(const PlottedWalk& walk) {
   const std::filesystem::path path = walk.folder / "certificate.csv";
   if (!std::filesystem::exists(path)) {
@@ -75,6 +109,7 @@ std::map<std::string, Proved> ReadProved(const PlottedWalk& walk) {
     families.emplace(halfstep::Name(family), family);
   }
   std::map<std::string, Proved> proved;
+  std::map<std::string, std::vector<ProvedRow>> rows;
   for (size_t i = 0; i < names.size(); ++i) {
     const auto family = families.find(names[i]);
     if (family == families.end() || !std::isfinite(demanded[i])) continue;
@@ -82,15 +117,16 @@ std::map<std::string, Proved> ReadProved(const PlottedWalk& walk) {
     one.family = family->second;
     one.demanded = demanded[i];
     const double least = margin[i] - bound[i];
-    const double shown = std::isfinite(least) ? least : std::nan("");
-    if (std::isfinite(least)) one.least = std::min(one.least, least);
+    if (std::isfinite(least)) {
+      one.least = std::min(one.least, least);
+      rows[names[i]].push_back({begin[i], end[i], least});
+    }
     one.found.emplace_back(0.5 * (begin[i] + end[i]),
                            std::isfinite(margin[i]) ? margin[i] : std::nan(""));
-    one.points.emplace_back(begin[i], shown);
-    one.points.emplace_back(end[i], shown);
   }
   std::erase_if(proved, [](const auto& entry) { return entry.second.least > 1e299; });
   for (auto& [name, one] : proved) {
+    one.points = LeastOverTime(rows[name]);
     const std::optional<std::string> column = TrajectoryColumnOf(one.family);
     if (column && walk.rows.Has(*column)) one.found = walk.OverTime(*column);
   }

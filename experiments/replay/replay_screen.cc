@@ -76,9 +76,9 @@ std::string SupportText(const Replayed& replayed) {
   return "  support feet off their plan: in the end " + place(support.at_end) + "; at most " +
          place(support.largest) +
          Formatted(
-             "; by %.1f mm more or less within %.1f s; from them, waist and soles off by at most "
-             "%.1f mm\n",
-             1e3 * support.within_window, replayed.window, 1e3 * replayed.result.stray);
+             "; within %.1f s this changes by at most %.1f mm; seen from them, waist and soles are "
+             "off by at most %.1f mm\n",
+             replayed.window, 1e3 * support.within_window, 1e3 * replayed.result.stray);
 }
 
 std::string SolesText(const ReplayResult& result) {

@@ -132,7 +132,8 @@ const kinds = {
 };
 
 /** Why a walk took over, in words. */
-export function handOverWords(kind, reason) {
+export function handOverWords({ walk, kind, reason }) {
+  if (walk === 0) return `the first: ${reason}`;
   if (kind === "smoothed" && reason === "overlaps") return kinds.smoothed;
   return `${kinds[kind] ?? kind}${reason ? `: ${reason}` : ""}`;
 }
@@ -140,7 +141,8 @@ export function handOverWords(kind, reason) {
 const words = {
   handed_over: ({ walk, text, half_step: from }) => {
     const [kind, ...reason] = text.split(": ");
-    return `walk ${walk} taken over, from half-step ${from} on: ${handOverWords(kind, reason.join(": "))}`;
+    const why = handOverWords({ walk, kind, reason: reason.join(": ") });
+    return walk === 0 ? `walk 0, ${why}` : `walk ${walk} taken over, from half-step ${from} on: ${why}`;
   },
   lost: ({ text }) => `a measurement was lost: ${text}`,
   commanded: ({ text }) => `commanded: ${text}`,

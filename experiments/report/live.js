@@ -260,7 +260,9 @@ function showTimeline() {
 
 function play() {
   for (const message of data.messages) take(message);
-  Object.assign(byId("connection"), { textContent: data.outcome, title: data.outcome });
+  byId("connection").textContent = "recording";
+  byId("outcome").hidden = false;
+  byId("outcome").querySelector("p").textContent = data.outcome;
   if (!data.motion) return;
   walk = new Walk({ summary: { method: "executed" }, ...data.motion });
   timeline = new Timeline(redraw);

@@ -19,6 +19,7 @@ export class LiveControls {
     byId("add").addEventListener("click", () => this.addBox());
     byId("remove").addEventListener("click", () => this.send({ type: "remove", obstacle: this.selected }));
     byId("stop").addEventListener("click", () => this.send({ type: "end" }));
+    byId("again").addEventListener("click", () => this.send({ type: "again" }));
   }
 
   held() { return this.record.state?.held ?? false; }
@@ -68,7 +69,7 @@ export class LiveControls {
     const spare = this.spare().length;
     const removable = this.selected !== null && this.selected !== "goal" &&
       (this.record.worlds.at(-1)?.obstacles.some(({ name }) => name === this.selected) ?? false);
-    byId("hold").disabled = byId("stop").disabled = !running;
+    for (const id of ["hold", "stop", "again"]) byId(id).disabled = !running;
     byId("hold").textContent = this.held() ? "Walk on" : "Pause robot";
     byId("hold").setAttribute("aria-pressed", this.held());
     byId("add").disabled = !running || !standIn || spare === 0 || !this.view();

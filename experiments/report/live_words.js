@@ -15,7 +15,7 @@ export function shortened(text, most = mostLetters) {
 export function planRows(table, { t, plan, grant, world, begun }) {
   const rows = [];
   if (plan) {
-    rows.push(["walk", `${plan.walk}: ${handOverWords(plan.kind, plan.reason)}`]);
+    rows.push(["walk", `${plan.walk}: ${handOverWords(plan)}`]);
     rows.push(["footsteps", `${plan.footsteps.length - 2}, ends at ${seconds(plan.duration_s)}`]);
     rows.push(["begun", `half-step ${begun} of ${numHalfSteps(plan)}`]);
   }
@@ -38,9 +38,12 @@ export function planRows(table, { t, plan, grant, world, begun }) {
 
 /** Rows of the table of hand-overs, the latest first. */
 export function handOverRows(table, walks) {
+  // A recording does not tell how long was computed, which is not the same twice.
+  const computed = (walk) => 1000 * (walk.check_s + walk.plan_s + walk.smooth_s);
+  const timed = walks.some((walk) => Number.isFinite(computed(walk)));
   const cells = walks.slice(-10).reverse().map((walk) => [
-    seconds(walk.handed_over_s), `${walk.walk}`, `${walk.first_changed}`,
-    handOverWords(walk.kind, walk.reason), `${(1000 * (walk.check_s + walk.plan_s + walk.smooth_s)).toFixed(0)} ms`,
+    seconds(walk.handed_over_s), `${walk.walk}`, walk.walk === 0 ? "" : `${walk.first_changed}`,
+    handOverWords(walk), ...(timed ? [`${computed(walk).toFixed(0)} ms`] : []),
   ]);
   const text = cells.map((row) => row.join("\t")).join("\n");
   if (table.dataset.key === text) return;
@@ -50,7 +53,7 @@ export function handOverRows(table, walks) {
     made.append(...row.map((textContent) => Object.assign(document.createElement(name), { textContent })));
     return made;
   };
-  table.replaceChildren(line("th", ["at", "walk", "from half-step", "why", "computed"]), ...cells.map((row) => line("td", row)));
+  table.replaceChildren(line("th", ["at", "walk", "from half-step", "why", ...(timed ? ["computed"] : [])]), ...cells.map((row) => line("td", row)));
 }
 
 /** What the volumes are: of the message `volumes`, null when they are not drawn; `drawn` of them. */

@@ -71,6 +71,7 @@ void InterruptGuard::WaitForSignals(const std::stop_token& ended, pthread_t make
     }
     if (since > seconds(10)) proof_.request_stop();
     if (since > seconds(20)) {
+      const std::lock_guard lock(mutex_);
       const std::string end =
           saved_by_.empty() ? ", so it is lost" : "; `" + saved_by_ + "` saves it";
       const std::string sentence =

@@ -3,10 +3,10 @@
 #include <pthread.h>
 
 #include <atomic>
+#include <mutex>
 #include <stop_token>
 #include <string>
 #include <thread>
-#include <utility>
 
 namespace halfstep {
 
@@ -30,9 +30,10 @@ class InterruptGuard {
   std::stop_token proof_token() const { return proof_.get_token(); }
 
   /// Says that from now on there is something to keep. `saved_by` is the command that saves it
-  /// where the process is ended before it has written it; "": none does. To be called once.
-  void Keep(std::string saved_by = {}) {
-    saved_by_ = std::move(saved_by);
+  /// where the process is ended before it has written it; "": none does. The last call counts.
+  void Keep(const std::string& saved_by = {}) {
+    const std::lock_guard lock(mutex_);
+    saved_by_ = saved_by;
     keep_ = true;
   }
 
@@ -41,7 +42,8 @@ class InterruptGuard {
   void WaitForSignals(const std::stop_token& ended, pthread_t maker);
 
   std::stop_source stop_, step_, proof_;
-  std::string saved_by_;  // not changed once keep_ is true
+  std::mutex mutex_;  // of saved_by_
+  std::string saved_by_;
   std::atomic<bool> keep_ = false;
   std::jthread waiter_;  // the last: uses what is above
 };

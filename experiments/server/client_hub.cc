@@ -101,6 +101,8 @@ void ClientHub::Do(ClientLine* line, Client* client, const ClientMessage& messag
     inbox_.Hold(hold->held);
   } else if (std::holds_alternative<halfstep::End>(message)) {
     inbox_.End();
+  } else if (std::holds_alternative<Again>(message)) {
+    inbox_.Again();
   } else if (std::holds_alternative<Controls>(message)) {
     BeginControl(line);
   } else if (const auto* command = std::get_if<Commanded>(&message)) {

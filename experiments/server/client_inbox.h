@@ -37,14 +37,20 @@ class ClientInbox {
   bool held() const { return held_; }  ///< whether Hold(true) was said last
   /// Asks for the end of the episode, when the robot has come to rest.
   void End() { end_.request_stop(); }
-  bool ended() const { return end_.stop_requested(); }            ///< whether End() was called
+  bool ended() const { return end_.stop_requested(); }  ///< whether End() was called
+  /// Asks for the end, and that the episode begins anew.
+  void Again() {
+    again_ = true;
+    End();
+  }
+  bool again() const { return again_; }                           ///< whether Again() was called
   std::stop_token end_token() const { return end_.get_token(); }  ///< stop is requested by End()
 
  private:
   std::mutex mutex_;  // of the two that follow
   std::vector<Measurement> measurements_;
   std::vector<Edit> edits_;
-  std::atomic<bool> held_ = false, has_come_ = false;
+  std::atomic<bool> held_ = false, has_come_ = false, again_ = false;
   std::stop_source end_;
 };
 

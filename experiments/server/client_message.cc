@@ -196,6 +196,7 @@ ClientMessage ClientMessageReader::Read(std::string_view text) const {
       return edit(Remove{ObstacleNamed(f, "obstacle", scene_)});
     };
   }
+  if (part_ == ClientPart::kWorld) readers["again"] = [](MessageFields&) { return Again{}; };
   if (commands_) {
     readers["walk"] = [&](MessageFields& f) { return edit(ReadWalk(f)); };
     readers["follow"] = [&](MessageFields& f) { return edit(ReadFollow(f)); };

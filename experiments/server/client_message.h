@@ -63,6 +63,8 @@ struct Hold {
   bool held = true;  ///< false: release
 };
 struct End {};
+/// The episode is to end, and to begin anew.
+struct Again {};
 /// The client controls the simulated robot from now on.
 struct Controls {};
 /// What it commands.
@@ -71,8 +73,8 @@ struct Commanded {
   std::array<Vector6d, 2> q, speeds;  ///< of the legs' joints, by Index(Side) [rad], [rad/s]
 };
 /// All that a client may say.
-using ClientMessage =
-    std::variant<Subscribe, Draw, TellVolumes, MeasuredFrame, Edit, Hold, End, Controls, Commanded>;
+using ClientMessage = std::variant<Subscribe, Draw, TellVolumes, MeasuredFrame, Edit, Hold, End,
+                                   Again, Controls, Commanded>;
 
 /// What clients do beside looking on: what is there, they change or measure (the config's
 /// live.sensing.source), or one of them controls a simulated robot, and nobody does either.

@@ -68,7 +68,9 @@ std::vector<ScriptEvent> ServedEpisode::Script() const {
 }
 
 void ServedEpisode::End(const Episode& episode, const std::string& folder) {
-  server_->End(MessageText(EndMessage(episode, folder)));
+  nlohmann::json message = EndMessage(episode, folder);
+  message["again"] = again();
+  server_->End(MessageText(message));
 }
 
 }  // namespace halfstep

@@ -51,7 +51,8 @@ class ServedEpisode {
   void Wait(const std::string& reason) { board_.Wait(reason); }  ///< there is no walk yet, and why
   /// After each tick of the episode.
   void Tick(const EpisodeTick& tick) { board_.Tick(tick, held() || inbox_.ended()); }
-  bool held() const { return inbox_.held(); }  ///< whether a client holds the robot
+  bool held() const { return inbox_.held(); }    ///< whether a client holds the robot
+  bool again() const { return inbox_.again(); }  ///< whether a client asked for it anew
   /// Asks for the end of the episode, as clients do.
   void Stop() { inbox_.End(); }
   /// Stop is requested when a client asks for the end.

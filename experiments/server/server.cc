@@ -15,6 +15,7 @@
 #include <exception>
 #include <filesystem>
 #include <optional>
+#include <regex>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -59,8 +60,16 @@ struct Server::State {
     if (!socket_path.empty()) unlink(socket_path.c_str());
   }
 
-  void OpenPort(int port, const std::function<std::string(const std::string&)>& page) {
+  // At the address of a server before, unless that is "".
+  void OpenPort(int port, const std::string& before,
+                const std::function<std::string(const std::string&)>& page) {
     web.emplace(io);
+    std::string token;
+    const std::regex place_of("http://127\\.0\\.0\\.1:([0-9]+)/([0-9a-f]+)/");
+    if (std::smatch match; std::regex_match(before, match, place_of)) {
+      port = std::stoi(match[1]);
+      token = match[2];
+    }
     error_code error;
     const tcp::endpoint place(asio::ip::address_v4::loopback(), static_cast<unsigned short>(port));
     web->open(place.protocol());
@@ -71,7 +80,7 @@ struct Server::State {
           {Formatted("--port: %d: ", port) + error.message() + " (valid: a free port; 0: any)"});
     }
     rules.host = Formatted("127.0.0.1:%d", web->local_endpoint().port());
-    rules.token = DrawToken();
+    rules.token = token.empty() ? DrawToken() : token;
     address = "http://" + rules.host + "/" + rules.token + "/";
     rules.page = page("ws://" + rules.host + "/" + rules.token + "/socket");
     AcceptWeb();
@@ -160,7 +169,7 @@ struct Server::State {
 
 Server::Server(const ServerOptions& options, ClientHub* hub)
     : state_(std::make_unique<State>(hub)) {
-  if (options.view) state_->OpenPort(options.port, options.page);
+  if (options.view) state_->OpenPort(options.port, options.address, options.page);
   if (!options.socket_path.empty()) state_->OpenSocket(options.socket_path);
   state_->thread = std::thread([state = state_.get()] { state->Run(); });
 }

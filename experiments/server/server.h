@@ -15,6 +15,8 @@ struct ServerOptions {
   /// The HTML that is served there, for the address of the messages ("ws://…").
   std::function<std::string(const std::string& socket)> page = {};
   std::string socket_path = {};  ///< by a Unix-domain socket; "": none
+  /// The address() of a server that is no more, in place of `port` and of a new token; "": none.
+  std::string address = {};
 };
 
 /// Why this build has no server; "" when it has one.
@@ -31,7 +33,8 @@ class Server {
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
-  /// "http://127.0.0.1:PORT/TOKEN/"; "" without `view`. The token is drawn from the system.
+  /// "http://127.0.0.1:PORT/TOKEN/"; "" without `view`. A new token is drawn from the
+  /// system.
   const std::string& address() const;
 
   /// Lets the hub announce the news soon. Any thread may call it.

@@ -87,12 +87,12 @@ std::string StarterConfigText(const RobotModel& robot, const StarterConfig& conf
   }
   if (text.find("\nhalf_step: ") == std::string::npos) {
     text += Formatted(
-        "# half_step: {duration_s: %.3g, via_height_m: %.3g}  # so long lasts each, so high goes "
-        "the foot\n",
+        "# half_step: {duration_s: %.3g, via_height_m: %.3g}  # how long each lasts, how high the "
+        "foot rises\n",
         half_step.duration, half_step.via_height);
   }
   return text +
-         "# smoothing:  # more than one after the other: `halfstep list methods`\n"
+         "# smoothing:  # methods are run one after the other: `halfstep list methods`\n"
          "#   methods: [dichotomy, halfstep/sqp]\n"
          "#   optimizer: {footsteps: true}  # footsteps move a little, too\n"
          "#   margins: {clearance_m: 0.005}\n";

@@ -12,6 +12,7 @@
 #include "experiments/tables/not_covered_json.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/sha256.h"
+#include "wpg/files/suggestion.h"
 #include "wpg/files/text.h"
 
 namespace halfstep {
@@ -197,7 +198,8 @@ RunRecord ReadRun(const std::string& argument) {
   const fs::path run(folder);
   const fs::path path = run / "manifest.json";
   if (!fs::is_directory(run) || !fs::exists(path)) {
-    throw InputError({folder + ": no such run folder (valid: a folder that `halfstep run` wrote)"});
+    throw InputError({folder + ": no such run folder (" + DidYouMeanRun(folder) +
+                      "valid: a folder that `halfstep run` wrote)"});
   }
   const std::string text = ReadJsonText(path);
   const json manifest = ParseJsonObject(text, path);

@@ -140,7 +140,7 @@ std::string Sentence(const PromiseText& promise) {
     text += (text.empty() ? "" : ", ") + Quote(one.name) + Formatted(" (from %.3f s on)", one.from);
   }
   text = text.empty() ? "the promise held"
-                      : "the promise did not hold: r and v were not kept by " + text;
+                      : "not where its error and speed allow, on which the promise rests, was " + text;
   for (size_t i = 0; i < promise.touched.size(); ++i) {
     text += (i == 0 ? "; the robot touched " : ", ") + Quote(promise.touched[i].obstacle);
   }

@@ -11,6 +11,7 @@
 #include "experiments/verify/verify_episode.h"
 #include "experiments/verify/verify_method.h"
 #include "wpg/files/input_error.h"
+#include "wpg/files/suggestion.h"
 #include "wpg/files/text.h"
 #include "wpg/nth.h"
 
@@ -92,8 +93,8 @@ std::vector<MethodVerification> VerifyRun(const VerifyOptions& options) {
   }
   const fs::path manifest_path = fs::path(options.run) / "manifest.json";
   if (!fs::is_directory(options.run) || !fs::exists(manifest_path)) {
-    throw InputError(
-        {options.run + ": no such run folder (valid: a folder that `halfstep run` wrote)"});
+    throw InputError({options.run + ": no such run folder (" + DidYouMeanRun(options.run) +
+                      "valid: a folder that `halfstep run` wrote)"});
   }
   const std::string manifest_text = ReadBytes(manifest_path.string());
   if (IsOfEpisode(manifest_path.string(), manifest_text)) {

@@ -63,9 +63,9 @@ void DeclareFamilies(Fields& fields, SolverMethodOptions* c) {
   const std::vector<std::string> keys = fields.Keys();
   if (NamesFamilyOfHalfSteps(keys)) c->all_families = false;
   fields.Boolean("all_families", &c->all_families,
-                 {.meaning = "whichever of the next keys but `footsteps` is not given is "
-                             "true, and `least_duration` is 0.2; false by default where one of "
-                             "these is given"});
+                 {.meaning = "of the next keys all but `footsteps` are true where they are not "
+                             "given, and `least_duration` is 0.2; false by default where one of "
+                             "them is given"});
   if (!keys.empty() && !c->all_families) ChooseFamiliesOfHalfSteps(false, choice);
   for (const ParameterFamily family : AllParameterFamilies()) {
     const ParameterFamilyTraits& traits = Traits(family);

@@ -200,7 +200,8 @@ TEST(RobotCommand, WritesTheDraftOfARobotThatItRefuses) {
     const Outcome outcome = Halfstep(place.path(), {"robot", "robot.urdf", "--overwrite"});
     EXPECT_EQ(outcome.status, kBadInput);
     EXPECT_THAT(outcome.err, HasSubstr(refusal));
-    EXPECT_THAT(outcome.err, HasSubstr("written: robot.yaml, what was found, marked as refused"));
+    EXPECT_THAT(outcome.err, HasSubstr("written: robot.yaml, what was found, marked as refused; "
+                                       "--overwrite replaces it"));
     EXPECT_FALSE(fs::exists(place / "robot.svg"));
     const std::string draft = ReadText(place / "robot.yaml");
     EXPECT_THAT(draft, StartsWith("# REFUSED, as said below."));

@@ -68,6 +68,14 @@ TEST(ShippedNames, AFileThatIsMissingHasANearOne) {
   WriteText(place / "my_walk.yaml", "");
   EXPECT_THAT(Halfstep(place.path(), {"run", "my_wlak.yaml"}).err,
               HasSubstr("my_wlak.yaml: no such file (did you mean 'my_walk.yaml'? valid: a path"));
+  EXPECT_THAT(Halfstep(place.path(), {"run", "my_walk"}).err,
+              HasSubstr("my_walk: no such file (did you mean 'my_walk.yaml'? valid: a path"));
+  fs::create_directories(place / "runs/my_walk");
+  WriteText(place / "runs/my_walk/manifest.json", "{}");
+  for (const std::string command : {"verify", "report", "certify", "check", "compare"}) {
+    EXPECT_THAT(Halfstep(place.path(), {command, "my_walk"}).err,
+                HasSubstr("my_walk: no such run folder (did you mean 'runs/my_walk'? valid: "));
+  }
 }
 
 }  // namespace

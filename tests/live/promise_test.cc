@@ -118,6 +118,10 @@ TEST(Promise, WhatAppearsIsCoveredByNoKey) {
   EXPECT_FALSE(promise.broken[0].was_there);
   EXPECT_THAT(promise.broken[0].covered_by, IsEmpty());
   EXPECT_THAT(PromiseText(promise), HasSubstr("no key covers what was not there"));
+  EXPECT_THAT(PromiseText(promise), HasSubstr("\n             nothing was touched\n"));
+  EXPECT_THAT(PromiseSentence(promise),
+              testing::MatchesRegex("'crate' was not where its error and speed allow, on which the "
+                                    "promise rests, from .* s on; nothing was touched"));
 }
 
 TEST(Promise, WhatWasTakenToRestAndMovesWithinItsSpeedIsToldByThatKey) {

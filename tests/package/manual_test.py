@@ -63,6 +63,34 @@ class Manual(unittest.TestCase):
                          ["dichotomy/right_to_left"])
         self.assertEqual(completed("nonsense", "--"), [])
 
+    @unittest.skipUnless(shutil.which("fish"), "fish is not there")
+    def test_fish_completes_the_same(self):
+        def offered(line):
+            script = f'function halfstep; "{HALFSTEP}" $argv; end; source "{FOLDER}/halfstep.fish"; complete -C "{line}"'
+            return [one.split("\t")[0] for one in told("fish", "--no-config", "-c", script).splitlines()]
+        self.assertEqual(offered("halfstep repl"), ["replay"])
+        self.assertEqual(offered("halfstep replay runs/none --contr"), ["--controller"])
+        self.assertEqual(offered("halfstep run bar_8cm_f"), ["bar_8cm_forms"])
+        self.assertEqual(offered("halfstep init x --robot bis"), ["bison"])
+        self.assertEqual(offered("halfstep list plann"), ["planners"])
+
+    @unittest.skipUnless(shutil.which("zsh"), "zsh is not there")
+    def test_zsh_reads_its_own(self):
+        """What zsh would be given to choose from; its line editor is not asked."""
+        script = """
+            _describe() { print -l $commands }; _files() {}
+            _arguments() { print -l -- "$@" }; compadd() { print -l -- "${@:2}" }
+            halfstep() { "$HALFSTEP" "$@" }; words=("${@:2}"); CURRENT=$#words
+            source "$1" """
+
+        def offered(*words):
+            return told("zsh", "-f", "-c", "HALFSTEP=$0" + script, HALFSTEP, FOLDER / "_halfstep",
+                        "halfstep", *words).splitlines()
+        self.assertEqual({line.split(":")[0] for line in offered("")}, set(commands()) | {"--help", "--version"})
+        known = options(told(HALFSTEP, "replay", "--help"))
+        self.assertEqual(options("\n".join(line.split("[")[0] for line in offered("replay", ""))), known)
+        self.assertTrue(any(line.startswith("*:configs:") for line in offered("run", "")))
+
     def test_it_says_its_name_and_not_its_place(self):
         self.assertIn("\nUsage: halfstep run [OPTIONS] CONFIG\n", told(HALFSTEP, "run", "-h"))
 

@@ -252,18 +252,27 @@ function testIsBeyond() {
   execFileSync(halfstep, ["verify", "one"], { cwd: place });
 }
 
-async function testStop(browser) {
+async function testAgainAndStop(browser) {
   const episode = await serve("two");
   children.push(episode.child);
   await browser.load(episode.address);
   await stateIs(browser, /half-step \d+ of \d+/);
+  await browser.run("document.body.dataset.first = 'yes'");
+  await click(browser, "again");
+  const isFirst = () => browser.run("return document.body.dataset.first ?? 'no'").catch(() => "yes");
+  await until(async () => (await isFirst()) === "no", "the page anew");
+  await stateIs(browser, /half-step \d+ of \d+/);
+  assert.equal(await textOf(browser, "connection"), "connected");
   await click(browser, "stop");
   await stateIs(browser, /^(ended|interrupted|arrived)/);
   await until(() => episode.ended !== null, "the end");
   assert.equal(await browser.run("return document.getElementById('stop').disabled"), true);
   assert.deepEqual(await browser.console(), []);
-  assert.deepEqual(await fetched(browser), [episode.address]);
-  assert.ok(existsSync(join(place, "two/report.html")));
+  assert.deepEqual(await fetched(browser), [episode.address, episode.address]);
+  for (const folder of ["two", "two_2"]) {
+    execFileSync(halfstep, ["verify", folder], { cwd: place });
+    assert.ok(existsSync(join(place, folder, "report.html")));
+  }
 }
 
 async function testRecording(browser) {
@@ -273,6 +282,7 @@ async function testRecording(browser) {
   await until(() => isDrawn(browser, (picture) => isPicture(standing = picture)), "a picture");
   assert.deepEqual(await overflows(browser), []);
   assert.equal(await browser.run("return document.getElementById('controls').hidden"), true);
+  assert.match(await textOf(browser, "outcome"), /arrived after [\d.]+ s/);
   assert.equal(await browser.run("return document.getElementById('show-volumes').checkVisibility()"), false);
   const clock = async () => Number.parseFloat(await textOf(browser, "clock"));
   await click(browser, "play");
@@ -319,7 +329,7 @@ try {
     try {
       await testLive(browser, episode);
       testIsBeyond();
-      await testStop(browser);
+      await testAgainAndStop(browser);
       await testRecording(browser);
     } finally {
       await browser.close();

@@ -54,6 +54,7 @@ TEST(ClientMessage, IsReadAsItIsMeant) {
   EXPECT_FALSE(std::get<Hold>(reader.Read(R"({"type":"release"})")).held);
   EXPECT_TRUE(std::holds_alternative<TellVolumes>(reader.Read(R"({"type":"volumes"})")));
   EXPECT_TRUE(std::holds_alternative<End>(reader.Read(R"({"type":"end"})")));
+  EXPECT_TRUE(std::holds_alternative<Again>(reader.Read(R"({"type":"again"})")));
 }
 
 TEST(ClientMessage, CommandsAreEventsOfAScript) {

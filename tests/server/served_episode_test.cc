@@ -63,6 +63,17 @@ class Served {
   }
 
   Connection Socket() const { return Connection::ToSocket(place_ / "walk.sock"); }
+  // Of the episode that begins anew, as soon as it is there.
+  Connection SocketOfTheNext() const {
+    for (int tries = 0; tries < 6'000; ++tries) {
+      try {
+        return Socket();
+      } catch (const std::runtime_error&) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      }
+    }
+    throw std::runtime_error("no episode began anew");
+  }
   Connection Port() const { return Connection::ToPort(port_); }
   const std::string& host() const { return host_; }
   const std::string& token() const { return token_; }
@@ -114,6 +125,24 @@ TEST(ServedEpisode, WaitsForItsFirstClientWhereItIsAskedTo) {
   EXPECT_EQ(waiting["reason"], "for its first client") << waiting;
   client.ReadUntil("walk");
   served.EndInTheGoal(&client);
+}
+
+// Each of the two is written in a folder of its own.
+TEST(ServedEpisode, BeginsAnewAtTheSameAddressWhereAClientAsksForIt) {
+  SKIP_WITHOUT_SERVER();
+  Served served(0.35);
+  Connection client = served.Socket();
+  client.ReadUntil("walk");
+  client.SendLine({{"type", "again"}});
+  EXPECT_TRUE(client.ReadUntil("end")["again"]);
+  EXPECT_TRUE(client.ReadLine().is_null());
+  Connection next = served.SocketOfTheNext();
+  EXPECT_EQ(next.ReadUntil("walk")["walk"], 0);
+  Connection web = served.Port();
+  web.Send(Get("/" + served.token() + "/", served.host()) + "\r\n");
+  EXPECT_THAT(web.ReadAll(), HasSubstr("HTTP/1.1 200 OK"));
+  served.EndInTheGoal(&next);
+  EXPECT_EQ(Halfstep(served.place(), {"verify", "one_2"}).status, kSuccess);
 }
 
 TEST(ServedEpisode, TellsTheSweptVolumesOfEachWalk) {

@@ -240,6 +240,18 @@ void CheckBytes(const std::string& text, const std::string& override_key,
   }
 }
 
+// Whether a line, from 0, begins with white space that has a tab.
+bool IsIndentedByTab(const std::string& text, int line) {
+  size_t begin = 0;
+  for (; line > 0 && begin != std::string::npos; --line) {
+    begin = text.find('\n', begin);
+    if (begin != std::string::npos) ++begin;
+  }
+  if (begin == std::string::npos) return false;
+  return text.substr(begin, text.find_first_not_of(" \t", begin) - begin).find('\t') !=
+         std::string::npos;
+}
+
 }  // namespace
 
 YamlNode ParseYaml(const std::string& text, const std::string& override_key,
@@ -252,7 +264,9 @@ YamlNode ParseYaml(const std::string& text, const std::string& override_key,
     while (parser.HandleNextDocument(builder)) {
     }
   } catch (const YAML::Exception& error) {
-    complaints->Fail(builder.PlaceOf(error.mark), "", "broken YAML: " + error.msg);
+    complaints->Fail(builder.PlaceOf(error.mark), "",
+                     "broken YAML: " + error.msg +
+                         (IsIndentedByTab(text, error.mark.line) ? " (a tab; valid: spaces)" : ""));
   }
   if (!builder.has_document() && override_key.empty()) {
     complaints->Fail({1, 1, ""}, "", "the document is empty (valid: a map of keys)");

@@ -72,8 +72,12 @@ void YamlReader::Run(const std::function<void(Fields&)>& declare) {
   if (map_ == nullptr) return;
   for (const YamlNode& item : map_->items) {
     if (std::find(known_.begin(), known_.end(), item.key) != known_.end()) continue;
-    complaints_->Add(item.key_place, KeyPath(path_, item.key),
-                     "unknown key" + Suggestion(item.key, known_));
+    // "x_m: 0,25" in a map in braces is the key "25".
+    const bool is_number = item.key.find_first_not_of("0123456789") == std::string::npos;
+    complaints_->Add(
+        item.key_place, KeyPath(path_, item.key),
+        "unknown key" + (is_number ? " (behind a decimal comma? valid: a decimal point)"
+                                   : Suggestion(item.key, known_)));
   }
 }
 

@@ -27,7 +27,10 @@ bool YamlReader::IsList(const YamlNode& node, const std::string& path, size_t lo
                             : hi == kAnyLength ? "a list of " + of + "s"
                                                : std::to_string(lo) + " … " + Count(hi, of);
   if (node.kind != NodeKind::kList) {
-    complaints_->Add(node.place, path, "not a list: " + Describe(node) + " (valid: " + valid + ")");
+    const bool is_item = node.kind == NodeKind::kScalar && hi == kAnyLength && of == "text";
+    complaints_->Add(node.place, path,
+                     "not a list: " + Describe(node) + " (valid: " + valid +
+                         (is_item ? ", [" + node.text + "]" : "") + ")");
     return false;
   }
   if (node.items.size() >= lo && node.items.size() <= hi) return true;
