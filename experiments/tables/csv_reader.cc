@@ -27,8 +27,9 @@ CsvTable ParseCsv(const std::string& text, const std::string& path) {
   std::vector<std::string> row(1);
   bool quoted = false;
   size_t line = 1;
-  for (size_t i = 0; i < text.size(); ++i) {
+  for (size_t i = text.starts_with("\xEF\xBB\xBF") ? 3 : 0; i < text.size(); ++i) {
     const char c = text[i];
+    if (!quoted && text.compare(i, 2, "\r\n") == 0) continue;  // lines end so on Windows
     if (quoted) {
       const bool doubled = c == '"' && i + 1 < text.size() && text[i + 1] == '"';
       if (doubled) ++i;
@@ -57,7 +58,9 @@ CsvTable ParseCsv(const std::string& text, const std::string& path) {
       row.back() += c;
     }
   }
-  if (quoted || row.size() > 1 || !row.back().empty()) Refuse(path, line, "the last line is cut");
+  if (quoted || row.size() > 1 || !row.back().empty()) {
+    Refuse(path, line, "the last line is cut (valid: it ends with a line break)");
+  }
   if (table.header.empty()) Refuse(path, 1, "no header");
   return table;
 }
