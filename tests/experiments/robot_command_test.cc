@@ -168,6 +168,9 @@ TEST(RobotSurvey, SaysFirstWhatKeepsARobotFromBeingOfTheClass) {
   EXPECT_THAT(UrdfRefusal(std::regex_replace(good, std::regex("joint5' type='revolute'"),
                                              "joint5' type='fixed'")),
               HasSubstr("has 5 moving joints"));
+  EXPECT_THAT(UrdfRefusal(std::regex_replace(good, std::regex("joint5' type='revolute'"),
+                                             "joint5' type='prismatic'")),
+              HasSubstr("the foot cannot be put everywhere; left_joint5 on it slides"));
   // What is wrong with a finger is told later, and as a warning.
   const std::string finger =
       "<link name='finger'/><joint name='grip' type='revolute'><parent link='waist'/>"
