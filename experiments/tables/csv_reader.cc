@@ -27,6 +27,7 @@ CsvTable ParseCsv(const std::string& text, const std::string& path) {
   std::vector<std::string> row(1);
   bool quoted = false;
   size_t line = 1;
+  // Spreadsheets write a byte order mark before the first line.
   for (size_t i = text.starts_with("\xEF\xBB\xBF") ? 3 : 0; i < text.size(); ++i) {
     const char c = text[i];
     if (!quoted && text.compare(i, 2, "\r\n") == 0) continue;  // lines end so on Windows

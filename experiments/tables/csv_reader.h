@@ -6,8 +6,7 @@
 
 namespace halfstep {
 
-/// A CSV file in memory, as CsvWriter writes it; lines may end with \r\n, and a byte order mark may
-/// stand before the first.
+/// A CSV file in memory, as CsvWriter writes it.
 struct CsvTable {
   std::string path;                            ///< as it was opened, for complaints
   std::vector<std::string> header;             ///< the columns' names

@@ -171,6 +171,11 @@ TEST(RobotSurvey, SaysFirstWhatKeepsARobotFromBeingOfTheClass) {
   EXPECT_THAT(UrdfRefusal(std::regex_replace(good, std::regex("joint5' type='revolute'"),
                                              "joint5' type='prismatic'")),
               HasSubstr("the foot cannot be put everywhere; left_joint5 on it slides"));
+  // An ankle that turns one way only.
+  const std::regex ankle("('left_joint4'[^]*?<limit lower=')[^']*(' upper=')[^']*");
+  const std::string stiff = UrdfRefusal(std::regex_replace(good, ankle, "$012.9$023"));
+  EXPECT_THAT(stiff, HasSubstr("within the joints' limits: left_joint4 would be at "));
+  EXPECT_THAT(stiff, HasSubstr("its limits are 166.2 and 171.9 deg (valid: "));
   // What is wrong with a finger is told later, and as a warning.
   const std::string finger =
       "<link name='finger'/><joint name='grip' type='revolute'><parent link='waist'/>"
