@@ -1,7 +1,10 @@
 #include "experiments/checker/check_report.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "wpg/files/text.h"
 
@@ -69,8 +72,16 @@ std::string MissedText(const TrajectoryFinding& finding, const KindText& text) {
   return said;
 }
 
+// "A#2 - B" as an option: the links that the bodies are of.
+std::string IgnoreOf(const std::string& subject) {
+  const auto link = [](const std::string& body) { return body.substr(0, body.rfind('#')); };
+  const size_t at = subject.find(" - ");
+  return " --ignore " + link(subject.substr(0, at)) + "=" + link(subject.substr(at + 3));
+}
+
 std::string KindScreen(const TrajectoryCheck& check, const KindText& text) {
   int subjects = 0, missed = 0;
+  std::vector<std::string> ignore;  // what is missed at knots, too
   const TrajectoryFinding* nearest = nullptr;
   std::string lines;
   for (const TrajectoryFinding& finding : check.findings) {
@@ -79,6 +90,11 @@ std::string KindScreen(const TrajectoryCheck& check, const KindText& text) {
     if (!finding.proved) {
       ++missed;
       if (missed <= 10) lines += "  " + MissedText(finding, text) + "\n";
+      if (text.kind != Kind::kSelfClearance || !finding.at_knots) continue;
+      const std::string option = IgnoreOf(finding.subject);
+      if (*finding.at_knots < finding.demanded && std::ranges::count(ignore, option) == 0) {
+        ignore.push_back(option);
+      }
     } else if (nearest == nullptr || finding.least < nearest->least) {
       nearest = &finding;
     }
@@ -97,6 +113,11 @@ std::string KindScreen(const TrajectoryCheck& check, const KindText& text) {
   } else {
     head += Formatted("not proved: %d of %d", missed, subjects);
     if (missed > 10) lines += Formatted("  and %d more (--json)\n", missed - 10);
+    if (!ignore.empty() && ignore.size() <= 40) {
+      lines += "  if these links meet by design:";
+      for (const std::string& option : ignore) lines += option;
+      lines += "\n";
+    }
   }
   return head + "\n" + lines;
 }

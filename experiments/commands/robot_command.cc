@@ -65,6 +65,9 @@ void Tell(const RobotDraft& draft, const RobotModel& robot) {
                    measures.leg_length, measures.standing_width, robot.com_height, robot.mass,
                    robot.sole_size.x(), robot.sole_size.y(), robot.bodies.size(),
                    robot.self_pairs.size(), robot.unwatched_pairs.size());
+  for (const std::string& joint : draft.legs.beyond) {
+    std::cout << "  " << joint << " is beyond the sixth joint: it is held still\n";
+  }
   for (const auto& [joint, why] : draft.why_posture) {
     std::cout << "  " << Nth(draft.urdf.joints, joint).name << ": " << why << '\n';
   }

@@ -82,6 +82,19 @@ std::string WhyNotSix(const UrdfTree& urdf, const std::vector<int>& joints) {
                            : 4);
 }
 
+// In words: a joint that slides on a link of the limb, where the foot may be.
+std::string SlidingOn(const UrdfTree& urdf, const std::vector<int>& joints) {
+  for (const UrdfJoint& joint : urdf.joints) {
+    if (!joint.slides) continue;
+    int on = Nth(urdf.links, joint.parent).joint;
+    while (on >= 0 && Nth(urdf.joints, on).kind == UrdfJoint::Kind::kFixed) {
+      on = Nth(urdf.links, Nth(urdf.joints, on).parent).joint;
+    }
+    if (std::ranges::count(joints, on) > 0) return "; " + joint.name + " on it slides";
+  }
+  return "";
+}
+
 // Refuses what are no legs of six joints, toes beyond the sixth aside.
 void AskForSixJoints(const UrdfTree& urdf, const Limbs& legs) {
   const auto& [a, b] = legs.joints;
@@ -91,7 +104,8 @@ void AskForSixJoints(const UrdfTree& urdf, const Limbs& legs) {
   }
   if (a.size() < kJoints) {
     Refuse(urdf, "a leg of it has " + JointsInWords(urdf, a) +
-                     ", so the foot cannot be put everywhere (valid: 6)");
+                     ", so the foot cannot be put everywhere" + SlidingOn(urdf, a) +
+                     " (valid: 6 that turn)");
   }
   if (a.size() == kJoints) return;
   for (const std::vector<int>& joints : legs.joints) {

@@ -37,10 +37,13 @@ std::string Times(const Eigen::Vector2d& size) {
   return Decimal(size.x(), 4) + " x " + Decimal(size.y(), 4);
 }
 
-// Roll, pitch and yaw about fixed axes [deg].
+// Roll, pitch and yaw about fixed axes [deg]. Where x becomes upright any yaw will do: roll is that
+// of R turned back by the yaw that was taken.
 Eigen::Vector3d RpyOf(const Eigen::Matrix3d& R) {
-  const double pitch = Atan2(-R(2, 0), Hypot(R(2, 1), R(2, 2)));
-  return kDegrees * Eigen::Vector3d(Atan2(R(2, 1), R(2, 2)), pitch, Atan2(R(1, 0), R(0, 0)));
+  const double yaw = Atan2(R(1, 0), R(0, 0)), pitch = Atan2(-R(2, 0), Hypot(R(1, 0), R(0, 0)));
+  const auto [s, c] = SinCos(yaw);
+  const double roll = Atan2(s * R(0, 2) - c * R(1, 2), c * R(1, 1) - s * R(0, 1));
+  return kDegrees * Eigen::Vector3d(roll, pitch, yaw);
 }
 
 // Text as YAML takes it, whatever is in it.

@@ -95,7 +95,7 @@ void Draw(const RobotModel& robot, const Standing& standing, Drawing* drawing) {
                              : standing.X_WB * Nth(Nth(standing.legs, body.leg).X_BLink, body.link);
     drawing->Body(body.shape, X, body.leg < 0 ? "#57606a" : Nth(kLegs, body.leg));
   }
-  const double size = 0.1 * robot.waist_height;
+  const double size = 0.1 * std::max(robot.waist_height, 0.5 * robot.com_height);
   for (size_t leg = 0; leg < 2; ++leg) {
     const LegFrames& frames = standing.legs[leg];
     for (size_t i = 0; i < 6; ++i) {
@@ -126,7 +126,7 @@ std::string RobotPicture(const RobotModel& robot) {
   for (size_t leg = 0; leg < 2; ++leg) {
     standing.legs[leg] = PlaceLeg(robot.legs[leg], robot.legs[leg].standing_q);
   }
-  double top = robot.waist_height, reach = 0.5 * robot.standing_width;
+  double top = std::max(robot.waist_height, 0.0), reach = 0.5 * robot.standing_width;
   for (const RobotBody& body : robot.bodies) {
     const Isometry3d X = body.leg < 0
                              ? standing.X_WB

@@ -48,7 +48,8 @@ bool IsWithinLimits(const RobotModel& robot, const Posture& posture) {
   constexpr double kWithin = 0.01;  // [rad]
   if (!posture.reachable) return false;
   for (size_t leg = 0; leg < 2; ++leg) {
-    if (posture.ik[leg].reach_margin < 1e-3 * robot.waist_height) return false;
+    if (posture.ik[leg].reach_margin < 1e-3 * std::max(robot.waist_height, 0.5 * robot.com_height))
+      return false;
     for (size_t i = 0; i < 6; ++i) {
       const LegJoint& joint = robot.legs[leg].joints[i];
       const double q = posture.ik[leg].q[static_cast<Eigen::Index>(i)];

@@ -258,12 +258,14 @@ class StanceSearch {
                            ? FindStanding(Nth(legs_, side), side, standing, std::max(*left, *right))
                            : std::nullopt;
         if (!q) {
+          const std::string joint = left && right ? JointInTheWay(Nth(legs_, side), side, standing,
+                                                                  std::max(*left, *right))
+                                                  : "";
           return Formatted(
-              "the %s foot cannot stand level below the CoM, %.3f m from the other, hip and ankle "
-              "%.0f %% of the stretched leg apart, within the joints' limits (valid: another "
-              "--bend "
-              "or --width)",
-              side == Side::kLeft ? "left" : "right", standing.width, 100 * standing.bend);
+                     "the %s foot cannot stand level below the CoM, %.3f m from the other, hip and "
+                     "ankle %.0f %% of the stretched leg apart, within the joints' limits",
+                     side == Side::kLeft ? "left" : "right", standing.width, 100 * standing.bend) +
+                 (joint.empty() ? "" : ": " + joint) + " (valid: another --bend or --width)";
         }
         for (size_t k = 0; k < 6; ++k) {
           Nth(draft_.posture, Nth(draft_.legs.joints, side)[k]) =

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "wpg/files/text.h"
 #include "wpg/robot/leg_ik.h"
 #include "wpg/robot/robot_legs.h"
 
@@ -15,14 +16,15 @@ using Eigen::Vector3d;
 
 // Turns angles by whole turns into the limits where that is possible.
 bool FitLimits(const Leg& leg, Vector6d* q) {
+  bool fits = true;
   for (size_t i = 0; i < 6; ++i) {
     double& angle = (*q)[static_cast<Eigen::Index>(i)];
     const LegJoint& joint = leg.joints[i];
     if (angle < joint.lower) angle += 2 * std::numbers::pi;
     if (angle > joint.upper) angle -= 2 * std::numbers::pi;
-    if (angle < joint.lower || angle > joint.upper) return false;
+    fits = fits && angle >= joint.lower && angle <= joint.upper;
   }
-  return true;
+  return fits;
 }
 
 // How far the knee axis is ahead of the middle of hip and ankle [m].
@@ -87,6 +89,31 @@ std::optional<Vector6d> FindStanding(const Leg& leg, Side side, const StandingRe
   }
   if (!best) return std::nullopt;
   return AtItsPlace(leg, X_BSole, *best);
+}
+
+std::string JointInTheWay(const Leg& leg, Side side, const StandingRequest& request, double z) {
+  double least = std::numeric_limits<double>::infinity();
+  std::string said;
+  for (LegIkBranchSolution& solution : SolveLegIkAll(leg, SolePlace(side, request, z))) {
+    FitLimits(leg, &solution.q);
+    double lacking = 0.0, most = 0.0;
+    std::string worst;
+    for (size_t i = 0; i < 6; ++i) {
+      const LegJoint& joint = leg.joints[i];
+      const double q = solution.q[static_cast<Eigen::Index>(i)];
+      const double beyond = std::max(joint.lower - q, q - joint.upper);
+      lacking += std::max(beyond, 0.0);
+      if (beyond <= most) continue;
+      most = beyond;
+      constexpr double kDegree = std::numbers::pi / 180.0;
+      worst = joint.name + Formatted(" would be at %.1f deg, its limits are %.1f and %.1f deg",
+                                     q / kDegree, joint.lower / kDegree, joint.upper / kDegree);
+    }
+    if (lacking >= least) continue;
+    least = lacking;
+    said = worst;
+  }
+  return said;
 }
 
 double NarrowestStance(const std::array<Leg, 2>& legs, const std::array<FoundSole, 2>& soles,

@@ -26,6 +26,10 @@ std::optional<double> StandingHeight(const Leg& leg, Side side, const StandingRe
 std::optional<Vector6d> FindStanding(const Leg& leg, Side side, const StandingRequest& request,
                                      double z);
 
+/// Which joint is farthest beyond its limits where FindStanding() finds none, in words; "" where
+/// the sole is out of reach.
+std::string JointInTheWay(const Leg& leg, Side side, const StandingRequest& request, double z);
+
 /// The narrowest stance [m] at which the feet are `gap` apart: their bodies, or the soles where
 /// those are wider. It is at least that of straight legs.
 double NarrowestStance(const std::array<Leg, 2>& legs, const std::array<FoundSole, 2>& soles,

@@ -25,6 +25,7 @@ class CsvParser {
   // Whether more is wanted.
   bool Add(std::string_view part) {
     for (const char c : part) {
+      if (std::exchange(returned_, false) && c != '\n') row_.back() += '\r';
       if (state_ == State::kQuoted) {
         if (c == '"') {
           state_ = State::kAfterQuote;
@@ -40,8 +41,12 @@ class CsvParser {
         state_ = State::kPlain;
         if (c == ',') {
           row_.emplace_back();
+        } else if (c == '\r') {
+          returned_ = true;
         } else if (c != '\n') {
           row_.back() += c;
+          // Spreadsheets write a byte order mark before the first line.
+          if (line_ == 1 && row_.size() == 1 && row_.back() == "\xEF\xBB\xBF") row_.back().clear();
         } else if (!EndRow()) {
           return false;
         }
@@ -50,8 +55,8 @@ class CsvParser {
     return true;
   }
   void Finish() const {
-    if (state_ == State::kQuoted || row_.size() > 1 || !row_.back().empty()) {
-      Refuse(path_, line_, "the last line is cut");
+    if (state_ == State::kQuoted || returned_ || row_.size() > 1 || !row_.back().empty()) {
+      Refuse(path_, line_, "the last line is cut (valid: it ends with a line break)");
     }
     if (header_.empty()) Refuse(path_, 1, "no header");
   }
@@ -79,6 +84,7 @@ class CsvParser {
   const std::string& path_;
   const CsvRowLook look_;
   State state_ = State::kPlain;
+  bool returned_ = false;  // the character before was '\r' outside quotes: lines end so on Windows
   std::vector<std::string> header_, row_ = {""};
   size_t line_ = 1;
 };

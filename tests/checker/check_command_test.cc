@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 #include "experiments/checker/trajectory.h"
 #include "experiments/run/exit_status.h"
 #include "tests/checker/three_joint_arm.h"
@@ -106,6 +108,25 @@ TEST(CheckCommand, SaysWhatIsProvedAndWhatIsNot) {
               AllOf(HasSubstr("clearance            not proved: 1 of 3"),
                     HasSubstr("hand - ball at 1.0000 s"), HasSubstr("no knot shows it")));
   EXPECT_EQ(Halfstep(place.path(), {"check", "arm.csv", "--robot", "armm"}).status, kBadInput);
+}
+
+// What it says of pairs that meet at knots can be pasted.
+TEST(CheckCommand, TellsHowToIgnorePairs) {
+  const TemporaryFolder place;
+  WriteText(place / "arm.urdf", ArmText());
+  WriteText(place / "arm.csv", "t_s,shoulder\r\n0,-1\r\n2,1\r\n");
+  std::vector<std::string> words = {"check",    "arm.csv",          "--robot",
+                                    "arm.urdf", "--self-clearance", "5"};
+  const Outcome missed = Halfstep(place.path(), words);
+  EXPECT_EQ(missed.status, kFailed) << missed.err;
+  const std::string begin = "  if these links meet by design: ";
+  const size_t at = missed.out.find(begin);
+  ASSERT_NE(at, std::string::npos) << missed.out;
+  const size_t from = at + begin.size();
+  std::istringstream options(missed.out.substr(from, missed.out.find('\n', from) - from));
+  for (std::string word; options >> word;) words.push_back(word);
+  EXPECT_GT(words.size(), 6u);
+  EXPECT_EQ(Halfstep(place.path(), words).status, kSuccess);
 }
 
 TEST(CheckCommand, AsksForTheFloorAndForContacts) {

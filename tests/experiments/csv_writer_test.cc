@@ -8,11 +8,14 @@
 #include <limits>
 #include <random>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "experiments/tables/csv_reader.h"
 #include "tests/experiments/parsed_csv.h"
 #include "tests/refusal_of.h"
 #include "tests/temporary_folder.h"
+#include "wpg/files/input_error.h"
 
 namespace halfstep {
 namespace {
@@ -76,6 +79,15 @@ TEST(CsvWriter, QuotesWhatWouldBreakATable) {
   const ParsedCsv table(csv.text());
   ASSERT_EQ(table.size(), texts.size());
   for (size_t i = 0; i < texts.size(); ++i) EXPECT_EQ(table.Text(i, "left, right"), texts[i]);
+}
+
+// What spreadsheets and Python's csv module write.
+TEST(CsvReader, TakesLinesOfWindowsAndAByteOrderMark) {
+  const CsvTable table = ParseCsv("\xEF\xBB\xBFt_s,knee\r\n0,\"a\r\nb\"\r\n1,\r\n", "t.csv");
+  EXPECT_EQ(table.header, (std::vector<std::string>{"t_s", "knee"}));
+  EXPECT_EQ(table.Texts("knee"), (std::vector<std::string>{"a\r\nb", ""}));
+  EXPECT_EQ(table.Numbers("t_s"), (std::vector<double>{0.0, 1.0}));
+  EXPECT_THROW((void)ParseCsv("t_s\r\n0\r", "t.csv"), InputError);
 }
 
 TEST(CsvWriter, RefusesARowOfAnotherLength) {

@@ -1,11 +1,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <regex>
 
 #include "experiments/commands/commands.h"
 #include "experiments/config/experiment.h"
 #include "experiments/config/scaled_defaults.h"
+#include "experiments/survey/robot_picture.h"
 #include "experiments/survey/robot_survey.h"
 #include "experiments/survey/starter_config.h"
 #include "experiments/survey/support_search.h"
@@ -17,6 +19,7 @@
 #include "tests/wpg/generated_robots.h"
 #include "tests/wpg/shipped_robots.h"
 #include "wpg/files/input_error.h"
+#include "wpg/geometry/rotation.h"
 
 namespace halfstep {
 namespace {
@@ -165,6 +168,14 @@ TEST(RobotSurvey, SaysFirstWhatKeepsARobotFromBeingOfTheClass) {
   EXPECT_THAT(UrdfRefusal(std::regex_replace(good, std::regex("joint5' type='revolute'"),
                                              "joint5' type='fixed'")),
               HasSubstr("has 5 moving joints"));
+  EXPECT_THAT(UrdfRefusal(std::regex_replace(good, std::regex("joint5' type='revolute'"),
+                                             "joint5' type='prismatic'")),
+              HasSubstr("the foot cannot be put everywhere; left_joint5 on it slides"));
+  // An ankle that turns one way only.
+  const std::regex ankle("('left_joint4'[^]*?<limit lower=')[^']*(' upper=')[^']*");
+  const std::string stiff = UrdfRefusal(std::regex_replace(good, ankle, "$012.9$023"));
+  EXPECT_THAT(stiff, HasSubstr("within the joints' limits: left_joint4 would be at "));
+  EXPECT_THAT(stiff, HasSubstr("its limits are 166.2 and 171.9 deg (valid: "));
   // What is wrong with a finger is told later, and as a warning.
   const std::string finger =
       "<link name='finger'/><joint name='grip' type='revolute'><parent link='waist'/>"
@@ -188,6 +199,50 @@ TEST(RobotSurvey, WritesAnglesThatReadBackWithinTheirLimits) {
     EXPECT_THAT(YamlOf(survey.draft), HasSubstr("'shoulder': ")) << limits;
     EXPECT_NO_THROW((void)ModelOf(survey.draft)) << limits;
   }
+}
+
+// Of the 24 ways to lay a frame along the axes, eight have an upright x, which leaves yaw open.
+TEST(RobotSurvey, WritesTurnedFramesThatReadBack) {
+  const TemporaryFolder place;
+  const std::string urdf = GeneratedUrdf(GeneratedRobots()[0]);
+  RobotDraft draft = SurveyRobot({.urdf = WriteText(place / "robot.urdf", urdf)}).draft;
+  int frames = 0;
+  for (int x = 0; x < 6; ++x) {
+    for (int y = 0; y < 6; ++y) {
+      if (x % 3 == y % 3 || x + y == 0) continue;
+      draft.R_LinkB.col(0) = (x < 3 ? 1 : -1) * Eigen::Vector3d::Unit(x % 3);
+      draft.R_LinkB.col(1) = (y < 3 ? 1 : -1) * Eigen::Vector3d::Unit(y % 3);
+      draft.R_LinkB.col(2) = draft.R_LinkB.col(0).cross(draft.R_LinkB.col(1));
+      if (draft.R_LinkB.isIdentity()) continue;  // is not written
+      std::smatch n;
+      const std::string yaml = YamlOf(draft);
+      ASSERT_TRUE(std::regex_search(
+          yaml, n, std::regex("waist_rpy_deg: \\[([-.0-9]+), ([-.0-9]+), ([-.0-9]+)\\]")));
+      constexpr double kDegree = std::numbers::pi / 180.0;
+      const Eigen::Matrix3d R = RollPitchYaw(kDegree * std::stod(n[1]), kDegree * std::stod(n[2]),
+                                             kDegree * std::stod(n[3]));
+      EXPECT_LT((R - draft.R_LinkB).norm(), 1e-9) << n[0];
+      ++frames;
+    }
+  }
+  EXPECT_EQ(frames, 23);
+}
+
+// A waist frame 2 m below: the robot is the same, but for where its waist is said to be.
+TEST(RobotSurvey, TakesAWaistFrameBelowTheFloor) {
+  const TemporaryFolder place;
+  const std::string low =
+      "<link name='low'/><joint name='below' type='fixed'><parent link='low'/><child link='waist'/>"
+      "<origin xyz='0 0 2'/></joint></robot>";
+  const std::string urdf = Replaced(GeneratedUrdf(GeneratedRobots()[0]), "</robot>", low);
+  const RobotDraft draft = SurveyRobot({.urdf = WriteText(place / "robot.urdf", urdf)}).draft;
+  const std::string yaml = YamlOf(draft);
+  const RobotModel robot = LoadRobot(WriteText(place / "robot.yaml", yaml));
+  const RobotModel below = LoadRobot(
+      WriteText(place / "low.yaml", Replaced(yaml, "waist_link: 'waist'", "waist_link: 'low'")));
+  EXPECT_NEAR(below.waist_height, robot.waist_height - 2.0, 1e-12);
+  EXPECT_NEAR(below.com_height, robot.com_height, 1e-12);
+  EXPECT_THAT(RobotPicture(below), StartsWith("<svg "));
 }
 
 // What is refused leaves what was found, with the reason.

@@ -58,7 +58,7 @@ TEST(MeshFile, EveryFormOfTheCubeIsTheCube) {
     }
     EXPECT_NEAR(volume, 1, 1e-12);
   }
-  EXPECT_EQ(files, 7);
+  EXPECT_EQ(files, 8);
 }
 
 // The nodes' transforms, the unit and the accessor's offset and stride are all applied.
@@ -101,7 +101,7 @@ TEST(MeshFile, BadFilesAreRefusedWithTheirPlace) {
     EXPECT_THAT(Complaint(path), HasSubstr(expected));
     EXPECT_THAT(Complaint(path), StartsWith(path + ":"));
   }
-  EXPECT_EQ(files, 38);
+  EXPECT_EQ(files, 39);
 }
 
 // No beginning of a file may crash the reader or, for STL, pass for a whole one.

@@ -67,7 +67,7 @@ TEST(UrdfFixtures, AreRefusedWithTheirComplaintsInSilence) {
 // These are read all the same.
 TEST(UrdfFixtures, AreRepairedWithTheirWarnings) {
   const std::vector<fs::path> files = UrdfsIn(kFolder / "repaired");
-  EXPECT_EQ(files.size(), 16u);
+  EXPECT_EQ(files.size(), 18u);
   for (const fs::path& path : files) {
     SCOPED_TRACE(path.filename().string());
     const std::vector<std::string> expected = ExpectedOf(path);

@@ -10,6 +10,8 @@
 #include <map>
 #include <numbers>
 #include <set>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "wpg/files/input_error.h"
@@ -42,9 +44,7 @@ class DaeReader {
     if (const Element* scene = SceneOf(collada)) {
       ShowNode(*scene, X);
     } else {
-      for (const auto& [id, element] : by_id_) {
-        if (element->ValueStr() == "geometry") ShowGeometry(*element, X);
-      }
+      for (const auto& [id, geometry] : geometries_) ShowGeometry(*geometry, X);
     }
     LoadedMesh mesh = MeshOf(coordinates_, corners_);
     mesh.R_ZUp = UpOf(collada);
@@ -58,28 +58,38 @@ class DaeReader {
     throw InputError(complaints.lines());
   }
 
-  // Every element with an id, on one level after the other.
+  // Elements with an id, of the whole file and of each geometry, in the order of the file.
   void Register(const Element& collada) {
-    std::vector<const Element*> open = {&collada};
+    std::vector<std::pair<const Element*, const Element*>> open = {{&collada, nullptr}};
     while (!open.empty()) {
-      const Element& element = *open.back();
+      auto [element, geometry] = open.back();
       open.pop_back();
-      if (const std::string id = AttributeOf(element, "id"); !id.empty()) {
-        by_id_.emplace(id, &element);
+      const std::string id = AttributeOf(*element, "id"), &tag = element->ValueStr();
+      if (tag == "geometry") geometries_.emplace(id, geometry = element);
+      for (const Element* within : {static_cast<const Element*>(nullptr), geometry}) {
+        if (id.empty()) break;
+        const auto at = by_id_.try_emplace({within, tag, id}, element).first;
+        if (at->second != element) at->second = nullptr;  // several have it
       }
-      for (auto* e = element.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
-        open.push_back(e);
+      for (auto* e = element->LastChild(); e != nullptr; e = e->PreviousSibling()) {
+        if (e->ToElement() != nullptr) open.emplace_back(e->ToElement(), geometry);
       }
     }
   }
 
-  // What an attribute "#id" means.
+  // What an attribute "#id" means: some exporters give the sources of all geometries the same ids.
   const Element& Referred(const Element& from, const char* attribute, const char* tag) const {
     const std::string url = AttributeOf(from, attribute);
-    const auto found = url.starts_with('#') ? by_id_.find(url.substr(1)) : by_id_.end();
-    if (found == by_id_.end() || found->second->ValueStr() != tag) {
-      Fail(from, std::string(attribute) + "=" + Quote(url) + " is no <" + tag + "> of this file");
-    }
+    const auto find = [&](const Element* within) {
+      return url.starts_with('#') ? by_id_.find({within, tag, url.substr(1)}) : by_id_.end();
+    };
+    const TiXmlNode* geometry = &from;
+    while (geometry != nullptr && geometry->ValueStr() != "geometry") geometry = geometry->Parent();
+    auto found = geometry == nullptr ? by_id_.end() : find(geometry->ToElement());
+    if (found == by_id_.end()) found = find(nullptr);
+    const std::string what = std::string(attribute) + "=" + Quote(url);
+    if (found == by_id_.end()) Fail(from, what + " is no <" + tag + "> of this file");
+    if (found->second == nullptr) Fail(from, what + " is more than one <" + tag + "> (valid: one)");
     return *found->second;
   }
 
@@ -294,8 +304,10 @@ class DaeReader {
   }
 
   const std::string& path_;
-  std::map<std::string, const Element*> by_id_;
-  std::set<const Element*> open_;  // nodes that are being shown
+  // By the geometry that it is within (nullptr: the file), tag and id; nullptr: several elements.
+  std::map<std::tuple<const Element*, std::string, std::string>, const Element*> by_id_;
+  std::multimap<std::string, const Element*> geometries_;  // by their ids
+  std::set<const Element*> open_;                          // nodes that are being shown
   int nodes_ = 0;
   std::vector<double> coordinates_;
   std::vector<int> corners_;

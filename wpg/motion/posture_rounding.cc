@@ -86,8 +86,8 @@ RoundingOfPostures::Upright RoundingOfPostures::WaistOf(const RobotModel& robot,
                 .turn = turn,
                 .rate = walk.first[kWaistYaw]};
   waist.place += 4.0 * kU *
-                 (std::abs(x[kComX]) + std::abs(x[kComY]) + 2.0 * arm + robot.waist_height +
-                  std::abs(x[kWaistZ]));
+                 (std::abs(x[kComX]) + std::abs(x[kComY]) + 2.0 * arm +
+                  std::abs(robot.waist_height) + std::abs(x[kWaistZ]));
   waist.speed += arm * (waist.rate + (turn + 4.0 * kU) * std::abs(v[kWaistYaw])) +
                  2.0 * kU * (std::abs(v[kComX]) + std::abs(v[kComY]));
   return waist;

@@ -173,8 +173,10 @@ class Builder {
     model_.standing_width = l.y() - r.y();
     if (file_.lift) model_.largest_lift = *file_.lift;
     model_.support_point = file_.support_point;
-    if (model_.waist_height <= 0) {
-      fields_.Complain("waist_link", "the waist is not above the soles in the standing posture");
+    // The waist's frame may lie on the floor; the hips do not.
+    height_ = model_.waist_height + std::max(0.0, model_.legs[0].joints[0].point_B.z());
+    if (height_ <= 0) {
+      fields_.Complain("waist_link", "the hips are not above the soles in the standing posture");
     }
   }
 
@@ -191,9 +193,8 @@ class Builder {
       return;
     }
     // No part of a humanoid reaches twice as far as its legs are high.
-    model_.masses =
-        AddUpMasses(urdf_, FindAnchors(urdf_, leg_.waist, body_.leg_joints, leg_.posture),
-                    2 * model_.waist_height);
+    model_.masses = AddUpMasses(
+        urdf_, FindAnchors(urdf_, leg_.waist, body_.leg_joints, leg_.posture), 2 * height_);
     Tell(MassWarnings(urdf_));
     model_.com_x_B = moment.x() / model_.mass;
     model_.com_height = file_.com_height.value_or(model_.waist_height + moment.z() / model_.mass);
@@ -210,7 +211,7 @@ class Builder {
       body_.R_FootSole[side] = leg.joints[5].X_BLink.linear().transpose() * leg.X_BSole.linear();
     }
     body_.dae_up_axis = file_.dae_up_axis == "applied";
-    if (model_.waist_height > 0) body_.farthest = kFarthestBody * model_.waist_height;
+    if (height_ > 0) body_.farthest = kFarthestBody * height_;
     LinkBodies all = BuildBodies(urdf_, body_, complaints_);
     SelfPairs pairs = BuildSelfPairs(urdf_, file_.excluded, all, body_.leg_joints, model_.legs);
     model_.self_pairs = std::move(pairs.watched);
@@ -254,6 +255,7 @@ class Builder {
   LegRequest leg_;
   BodyRequest body_;
   RobotModel model_;
+  double height_ = 0.0;  // of waist or hips, standing: the higher one
 };
 
 }  // namespace

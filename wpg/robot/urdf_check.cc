@@ -19,6 +19,10 @@ namespace {
 // urdfdom and what reads its tree call themselves at each link of a chain.
 constexpr size_t kMostLinks = 5000;
 constexpr int kMostSuggestions = 20;  // each is a look at all names
+// Tags of xacro that are no calls of macros.
+constexpr std::string_view kOwnXacro[] = {
+    "xacro:arg",     "xacro:attribute",    "xacro:call",  "xacro:element",  "xacro:if",
+    "xacro:include", "xacro:insert_block", "xacro:macro", "xacro:property", "xacro:unless"};
 
 bool IsZero(std::string_view word) {
   const NumberText number = ParseNumber(word);
@@ -56,9 +60,15 @@ class Checker {
  private:
   // Whether the file waits for xacro: a tag of it, or an attribute with something to be replaced.
   // Looks where links and joints are, deeper where they nest; other extensions are not read.
+  // A call of a macro beside links is left out, as urdfdom does: xacro did not know it either.
   bool IsXacro(const TiXmlElement& parent) {
     for (auto* e = parent.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
       std::string found = e->ValueStr().starts_with("xacro:") ? e->ValueStr() : "";
+      if (!found.empty() && std::ranges::find(kOwnXacro, found) == std::end(kOwnXacro) &&
+          parent.FirstChildElement("link") != nullptr) {
+        warn_.Complain(*e, found, "calls a macro of xacro that was not expanded: it is left out");
+        found.clear();
+      }
       for (auto* a = e->FirstAttribute(); a != nullptr && found.empty(); a = a->Next()) {
         const bool replaced = a->ValueStr().find("${") != std::string::npos ||
                               a->ValueStr().find("$(") != std::string::npos;
@@ -99,16 +109,22 @@ class Checker {
       }
       CheckInertia(name, inertial);
     }
+    std::vector<TiXmlElement*> points;
     for (TiXmlElement* shape : ChildrenOf(link, "collision")) {
       elements_.CheckOrigin(*shape);
       TiXmlElement* geometry = elements_.Required(*shape, "geometry");
       if (geometry != nullptr && !CheckGeometry(*geometry)) {
-        warn_.Complain(*shape, name, "a collision shape without size is left out");
-        link.RemoveChild(shape);
-        continue;
+        points.push_back(shape);
+      } else {
+        found_.collisions[name].push_back({shape->Row(), shape->Column()});
       }
-      found_.collisions[name].push_back({shape->Row(), shape->Column()});
     }
+    if (points.empty()) return;
+    warn_.Complain(*points.front(), name,
+                   points.size() == 1 ? "a collision shape without size is left out"
+                                      : std::to_string(points.size()) +
+                                            " collision shapes without size are left out");
+    for (TiXmlElement* shape : points) link.RemoveChild(shape);
   }
 
   // What is missing or negative is repaired: what the whole robot's dynamics makes of it is told

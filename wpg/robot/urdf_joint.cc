@@ -35,6 +35,12 @@ void CheckRange(const UrdfElements& elements, const TiXmlElement& joint, const s
     elements.Complain(joint, name, "has no <limit>");
     return;
   }
+  if (limit->Attribute("lower") == nullptr && limit->Attribute("upper") == nullptr) {
+    elements.Complain(*limit, name,
+                      "has no lower and upper limit (valid: both in its <limit>; or the type "
+                      "continuous)");
+    return;
+  }
   const auto lower = elements.Numbers(*limit, "lower", 1),
              upper = elements.Numbers(*limit, "upper", 1);
   if (lower && upper && !((*lower)[0] < (*upper)[0])) {
@@ -47,13 +53,15 @@ void CheckRange(const UrdfElements& elements, const TiXmlElement& joint, const s
 void CheckSpeed(const UrdfElements& elements, TiXmlElement* joint, const std::string& name) {
   TiXmlElement* limit = joint->FirstChildElement("limit");
   if (limit == nullptr) return;
+  const bool is_made = limit->Row() == 0;  // by LimitToATurn
+  if (is_made) {
+    elements.Complain(*joint, name,
+                      "has no limits of speed and torque (valid: <limit velocity=\"…\" "
+                      "effort=\"…\"/> in the URDF; effort 0: not known)");
+  }
   for (const char* attribute : {"velocity", "effort"}) {
     const bool is_effort = attribute[0] == 'e';
-    if (limit->Row() == 0 && limit->Attribute(attribute) == nullptr) {  // of LimitToATurn
-      elements.Complain(*joint, name, std::string("has no limit of ") + attribute);
-    } else if (elements.Bounded(*limit, attribute, 1, is_effort)) {
-      continue;
-    }
+    if (!is_made && elements.Bounded(*limit, attribute, 1, is_effort)) continue;
     limit->SetAttribute(attribute, "0");
   }
 }
