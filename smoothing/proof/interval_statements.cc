@@ -83,7 +83,8 @@ void BoundMotion(const MotionBounds& bounds, const SuperposedWalk& walk, double 
                  IntervalMotion* motion) {
   const LocalTime mid = walk.Locate(0.5 * (begin + end));
   const WalkJet rounding = RoundingAt(walk, mid);
-  bounds.Bound(walk.At(mid), walk.SecondBounds(begin, end), 0.5 * (end - begin), motion, &rounding);
+  const WalkState second = walk.SecondBounds(begin, end) + SecondRounding(walk, begin, end);
+  bounds.Bound(walk.At(mid), second, 0.5 * (end - begin), motion, &rounding);
 }
 
 }  // namespace halfstep

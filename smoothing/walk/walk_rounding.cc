@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "wpg/rounded.h"
 
@@ -18,16 +19,22 @@ double PlacesOf(const HomotopyParameters& p) {
   return rest ? 1.0 : 3.0;
 }
 
-}  // namespace
-
-WalkJet RoundingAt(const SuperposedWalk& walk, const LocalTime& at) {
+// The first and the last half-step that may be under way, by rounding.
+std::pair<int, int> UnderWay(const SuperposedWalk& walk, const LocalTime& at, double time) {
   const auto local = [&](int i) {
     return at.tau + (walk.start_of(at.half_step) - walk.start_of(i));
   };
-  const double time = LocalTimeRounding(walk, at);
   int first = at.half_step, last = at.half_step;
   while (first > 0 && local(first - 1) < walk.tracks(first - 1).duration() + time) --first;
   while (last + 1 < walk.num_half_steps() && local(last + 1) > -time) ++last;
+  return {first, last};
+}
+
+}  // namespace
+
+WalkJet RoundingAt(const SuperposedWalk& walk, const LocalTime& at) {
+  const double time = LocalTimeRounding(walk, at);
+  const auto [first, last] = UnderWay(walk, at, time);
   const double places = PlacesOf(walk.parameters());
   WalkJet error, size;
   error.value = walk.tracks(first).StartRounding(places);
@@ -38,6 +45,26 @@ WalkJet RoundingAt(const SuperposedWalk& walk, const LocalTime& at) {
   error.first += sums * size.first;
   error.second += sums * size.second;
   return error;
+}
+
+WalkState SecondRounding(const SuperposedWalk& walk, double begin, double end) {
+  const auto under_way = [&](const LocalTime& at) {
+    return UnderWay(walk, at, LocalTimeRounding(walk, at));
+  };
+  const double half = 0.5 * (end - begin);
+  const auto [first, last] = under_way(walk.Locate(begin + half));
+  WalkState second = WalkState::Zero();
+  for (const double t : {begin, end}) {
+    const LocalTime at = walk.Locate(t);
+    const auto there = under_way(at);
+    if (there.first >= first && there.second <= last) continue;
+    const WalkJet off = RoundingAt(walk, at);
+    second += off.second;
+    for (const int q : {kZmpX, kZmpY}) {
+      if (half > 0.0) second[q] += off.first[q] / half;
+    }
+  }
+  return second;
 }
 
 // Of the difference of starts at most three half-steps apart, of a knot and of an interval's ends:

@@ -10,6 +10,11 @@ namespace halfstep {
 /// "Rounding", 2.
 WalkJet RoundingAt(const SuperposedWalk& walk, const LocalTime& at);
 
+/// What half-steps that begin or end within rounding of the interval's ends, and are not under way
+/// in its middle, may add to SecondBounds there. The ZMP's second derivative jumps; of that, what
+/// its first one may change by, over half the interval.
+WalkState SecondRounding(const SuperposedWalk& walk, double begin, double end);
+
 /// How far the local times of half-steps that are under way there may be from the exact ones, ends
 /// of intervals and knots included [s].
 double LocalTimeRounding(const SuperposedWalk& walk, const LocalTime& at);

@@ -21,6 +21,10 @@ double Apart(Real exact, double computed) {
   return static_cast<double>(Absolute(exact - Real(computed)));
 }
 
+double Apart(const Real3& exact, const Eigen::Vector3d& computed) {
+  return static_cast<double>(Norm(exact - From(computed)));
+}
+
 double Norm2(Real x, Real y) { return static_cast<double>(Sqrt(x * x + y * y)); }
 
 // One instant, computed and exact, as an interval of no width.
@@ -44,6 +48,7 @@ class DrawnDynamics {
       for (int j = 0; j < 6; ++j) {
         Add("acceleration", Apart(Nth(exact_.accelerations[s], j), at_m_.accelerations(side)[j]),
             drift_.rounding.accelerations[s][j]);
+        Link(side, static_cast<size_t>(j));
       }
     }
     if (!at_m_.Zmp()) return;
@@ -55,6 +60,27 @@ class DrawnDynamics {
  private:
   void Add(const std::string& part, double error, double bound) {
     tally_.Add(part, error, of_bound_ * (drift_.rounding.known ? bound : HUGE_VAL));
+  }
+  // With the point of its joint's axis.
+  void Link(Side side, size_t link) {
+    const size_t s = static_cast<size_t>(Index(side));
+    const ExactDynamics::Joint& exact = exact_.joints[s][link];
+    const RobotDynamics::Body& body = at_m_.leg(side)[link];
+    const BodyRounding& off = drift_.rounding.legs[s][link];
+    const Posture& posture = motion_.posture;
+    const Eigen::Vector3d point = posture.X_WB * posture.frames[s].point_B[link] - at_m_.O();
+    const Eigen::Vector3d turn = body.velocity.head<3>(), turn1 = body.acceleration.head<3>();
+    const Eigen::Vector3d velocity = body.velocity.tail<3>() + turn.cross(point);
+    const Eigen::Vector3d acceleration = body.acceleration.tail<3>() + turn1.cross(point) +
+                                         turn.cross(velocity) -
+                                         halfstep::kGravity * Eigen::Vector3d::UnitZ();
+    const PointRounding of_point = off.Of(body, point);
+    Add("link axis", Apart(exact.axis, body.screw.head<3>()), off.turn);
+    Add("link place", Apart(exact_.pole + exact.point - From(at_m_.O()), point), off.place);
+    Add("link turn'", Apart(exact.turn, turn), off.spin);
+    Add("link turn''", Apart(exact.turn1, turn1), off.spin1);
+    Add("link place'", Apart(exact.velocity, velocity), of_point.speed);
+    Add("link place''", Apart(exact.acceleration, acceleration), of_point.acceleration);
   }
   // About the computed ZMP of the floor.
   void Wrench() {

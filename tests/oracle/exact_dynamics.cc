@@ -115,6 +115,10 @@ ExactDynamics::ExactDynamics(const RobotModel& robot, const std::array<ExactLeg,
       const Real3 com = waist.p + R * (exact.R[j] * com_B + exact.t[j]);
       const auto asked = Asked(mass, R * exact.R[j] * linear, com, links[j]);
       add(asked, &force, &moment);
+      joints[s][j].turn = links[j].turn;
+      joints[s][j].turn1 = links[j].turn1;
+      joints[s][j].velocity = links[j].v;
+      joints[s][j].acceleration = links[j].a;
       for (size_t i = 0; i <= j; ++i) add(asked, &joints[s][i].force, &joints[s][i].moment);
     }
   }

@@ -19,9 +19,9 @@ struct ExactDynamics {
   Real3 pole{};                        ///< what moments are about, in W: below the waist's origin
   Real3 force{}, moment{};             ///< of the floor, about `pole`
   /// Of a joint: a point of its axis from `pole`, its direction, and what moves all that it
-  /// carries.
+  /// carries. Of the link that it moves: ω, ω̇, and how that point moves with it.
   struct Joint {
-    Real3 point{}, axis{}, force{}, moment{};
+    Real3 point{}, axis{}, force{}, moment{}, turn{}, turn1{}, velocity{}, acceleration{};
   };
   std::array<std::array<Joint, 6>, 2> joints;
 

@@ -211,6 +211,27 @@ void DrawWalks(const std::string& robot_file, long draws, int steps, unsigned se
     const ClosedFormWalk exact(plan, false);
     const SuperposedWalk walk(ToSequence(plan), ToParameters(plan));
     const std::string name = steps > 0 ? "long walk" : "walk";
+    // An interval that ends where a half-step begins, or begins where one ends, and what is beyond.
+    for (int i = 0; i < std::min(walk.num_half_steps(), 40); ++i) {
+      const bool at_end = draw.Chance(0.5);
+      const double t = at_end ? walk.start_of(i) : walk.end_of(i);
+      const double begin = at_end ? t - 1e-3 : t, end = begin + 1e-3;
+      if (begin < 0.0 || end > walk.duration()) continue;
+      const halfstep::WalkState off = RoundingAt(walk, walk.Locate(begin + 0.5e-3)).second;
+      const halfstep::WalkState known = walk.SecondBounds(begin, end) + off;
+      const halfstep::WalkState most = known + SecondRounding(walk, begin, end);
+      const LocalTime at{i, at_end ? 0.0 : walk.tracks(i).duration()};
+      const double time = (at_end ? 0.5 : -0.5) * LocalTimeRounding(walk, at);
+      const auto beyond = exact.Exactly(i, at.tau + time);
+      for (int q = 0; q < kNumQuantities; ++q) {
+        if (q == kZmpX || q == kZmpY) continue;
+        const Real second = Nth(beyond[2], q);
+        const double more = Difference(second < 0 ? -second : second, known[q]);
+        if (second * second > Real(known[q]) * Real(known[q])) {
+          tally->Add(name + " beyond''", more, most[q] - known[q]);
+        }
+      }
+    }
     for (int k = 0; k < (steps > 0 ? 1000 : 40) && draws > 0; ++k, --draws) {
       LocalTime at = walk.Locate(draw.Uniform(0, walk.duration()));
       if (draw.Chance(0.2)) at.tau = draw.Chance(0.5) ? walk.tracks(at.half_step).t1() : 0.0;

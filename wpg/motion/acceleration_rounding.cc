@@ -9,41 +9,96 @@ namespace halfstep {
 
 using Eigen::Vector3d;
 
+namespace {
+
+// Norms of the two halves of a matrix' rows, times a turn's and a translation's.
+Vector6d RowsTimes(const Matrix6d& Y, double turn, double place) {
+  return turn * Y.leftCols<3>().rowwise().norm() + place * Y.rightCols<3>().rowwise().norm();
+}
+
+}  // namespace
+
 Vector6d AccelerationRounding(const IntervalMotion& motion, const RobotDynamics& dynamics,
-                              Side side, double gravity) {
-  const int foot = FootIndex(side);
+                              const BodyRounding& waist, Side side, double gravity) {
+  const size_t s = static_cast<size_t>(Index(side));
+  const int foot = FootIndex(side), yaw = foot + 3;
   const WalkJet &jet = motion.jet, &off = motion.off;
-  const LegRounding& leg = Nth(motion.rounding.legs, Index(side));
+  const LegRounding& leg = motion.rounding.legs[s];
   const Posture& posture = motion.posture;
-  const Vector3d sole = Nth(posture.X_WSole, Index(side)).translation() - dynamics.O();
-  const Vector3d second = jet.second.segment<3>(foot);
-  Vector6d demanded = UprightAcceleration(sole, jet.first.segment<3>(foot), second,
-                                          jet.first[foot + 3], jet.second[foot + 3]);
+  const RobotDynamics::LegBodies& links = dynamics.leg(side);
+  const Eigen::Matrix3d& R = posture.X_WB.linear();
+  const Vector3d sole = posture.X_WSole[s].translation() - dynamics.O();
+  Vector3d pole = R * posture.frames[s].X_BLink[6].translation();
+  pole.z() += posture.X_WB.translation().z();
+  const auto about = [&pole](const Vector6d& x) {
+    return Spatial(x.head<3>(), x.tail<3>() + x.head<3>().cross(pole));
+  };
+  const Vector3d foot1 = jet.first.segment<3>(foot), foot2 = jet.second.segment<3>(foot);
+  Vector6d demanded = UprightAcceleration(sole, foot1, foot2, jet.first[yaw], jet.second[yaw]);
   demanded[5] += gravity;
-  const Vector6d missing = demanded - dynamics.leg(side)[5].acceleration;
-  const Vector3d turn = missing.head<3>();
+  const Vector6d missing = about(demanded - links[5].acceleration);
+
+  // How the sole's acceleration about a point that rests changes with the angles, and speeds.
+  const Vector6d of_waist = about(dynamics.waist().velocity);
+  const Vector6d last = about(links[5].velocity), last1 = about(links[5].acceleration);
+  Matrix6d H, by_speed, by_angle;
+  for (size_t j = 0; j < 6; ++j) {
+    const Vector6d screw = about(links[j].screw), velocity = about(links[j].velocity);
+    const Vector6d after = last - velocity, carried = CrossMotion(velocity, screw);
+    const Eigen::Index i = static_cast<Eigen::Index>(j);
+    H.col(i) = CrossMotion(screw, after);
+    by_speed.col(i) = carried + H.col(i);
+    by_angle.col(i) =
+        CrossMotion(screw, last1 - about(links[j].acceleration)) + CrossMotion(carried, after);
+  }
+  Matrix6d Y;  // for twists in the axes of W
+  Y.leftCols<3>() = posture.jacobian_inverse[s].leftCols<3>() * R.transpose();
+  Y.rightCols<3>() = posture.jacobian_inverse[s].rightCols<3>() * R.transpose();
+  const Matrix6d of_speeds = Y * by_speed, of_angles = of_speeds * (Y * H) - Y * by_angle;
 
   // Sums of all speeds and accelerations that are turned or carried by the leg.
-  const double rate = std::abs(jet.first[kWaistYaw]) + std::abs(jet.first[foot + 3]);
-  const double speeds = Nth(posture.speeds, Index(side)).cwiseAbs().sum() + rate;
-  const double yaws = std::abs(jet.second[kWaistYaw]) + std::abs(jet.second[foot + 3]);
-  const double all = dynamics.accelerations(side).cwiseAbs().sum() + 2.0 * speeds * speeds + yaws;
-  const double speed_off = leg.speeds.sum() + off.first[kWaistYaw] + off.first[foot + 3];
+  const double rate = std::abs(jet.first[kWaistYaw]) + std::abs(jet.first[yaw]);
+  const double speeds = posture.speeds[s].cwiseAbs().sum() + rate;
+  const double all = dynamics.accelerations(side).cwiseAbs().sum() + 2.0 * speeds * speeds +
+                     std::abs(jet.second[kWaistYaw]) + std::abs(jet.second[yaw]);
   const double size = leg.chain + sole.norm() + posture.X_WB.translation().z();
   const double carried =
-      second.norm() + jet.second.segment<2>(kComX).norm() + std::abs(jet.second[kWaistZ]) + gravity;
-  const double moved = jet.first.segment<3>(foot).norm() + posture.waist_velocity.norm();
-  const double of_turn = turn.norm() + off.second[kWaistYaw] + off.second[foot + 3] +
-                         3.0 * leg.turn * all + 4.0 * speeds * speed_off + 128.0 * kRoundoff * all;
-  const double of_place =
-      (missing.tail<3>() + turn.cross(sole)).norm() + off.second.segment<3>(foot).sum() +
-      off.second.segment<2>(kComX).sum() + off.second[kWaistZ] + leg.chain * off.second[kWaistYaw] +
-      3.0 * (leg.turn * leg.chain + leg.points) * all + 4.0 * leg.chain * speeds * speed_off +
-      4.0 * speeds * leg.point_speeds + 4.0 * moved * (speed_off + leg.turn * speeds) +
-      128.0 * kRoundoff * (all * size + carried + moved * speeds);
-  const Matrix6d& inverse = Nth(posture.jacobian_inverse, Index(side));
-  const Vector6d asked = of_turn * inverse.leftCols<3>().rowwise().norm() +
-                         of_place * inverse.rightCols<3>().rowwise().norm();
+      foot2.norm() + jet.second.segment<2>(kComX).norm() + std::abs(jet.second[kWaistZ]) + gravity;
+  const double moved = foot1.norm() + posture.waist_velocity.norm() + of_waist.tail<3>().norm();
+  // Of the waist: how its errors move what hangs on it.
+  const Vector6d hung = last - of_waist, hung1 = last1 - about(dynamics.waist().acceleration);
+  const double w = hung.head<3>().norm(), v = hung.tail<3>().norm(), w1 = hung1.head<3>().norm();
+  const double arm = pole.norm(), place = waist.place + arm * waist.turn;
+  const double sole_off = off.value.segment<3>(foot).sum() + 4.0 * kRoundoff * arm;
+  const double sole1_off = off.first.segment<3>(foot).sum();
+  // All but what is of first order in the errors of angles and speeds.
+  const double bent1 = leg.speeds.sum(), bent2 = leg.turn * (leg.turn + 64.0 * kRoundoff);
+  const double beyond = 64.0 * (bent2 * all + leg.turn * bent1 * speeds + bent1 * bent1);
+  const double turn = missing.head<3>().norm() + off.second[yaw] + waist.spin1 + waist.spin * w +
+                      2.0 * waist.turn * (w1 + rate * w) +
+                      (3.0 * leg.placed_turn + 128.0 * kRoundoff) * all + beyond;
+  const double along =
+      missing.tail<3>().norm() + off.second.segment<3>(foot).sum() +
+      std::abs(jet.second[yaw]) * sole_off + off.second[yaw] * leg.pose.place +
+      std::abs(jet.first[yaw]) * sole1_off + off.first[yaw] * (foot1.norm() + sole1_off) +
+      waist.acceleration + arm * waist.spin1 + waist.spin * v +
+      (waist.velocity + arm * waist.spin) * w +
+      2.0 * (waist.turn * (hung1.tail<3>().norm() + rate * v + moved * w) +
+             place * (w1 + rate * w)) +
+      9.0 * leg.placed * all + 3.0 * leg.placed_turn * moved * speeds +
+      128.0 * kRoundoff * (all * size + carried + moved * speeds) + leg.chain * beyond +
+      64.0 * moved * (bent2 * speeds + leg.turn * bent1);
+  const LegRounding::OfSole &pose = leg.pose, &twist = leg.twist;
+  const double y = Y.norm(), pose_size = pose.turn + pose.place;
+  const double sums =
+      64.0 * kRoundoff * y *
+      (by_speed.norm() * (twist.turn + twist.place + y * H.norm() * pose_size) +
+       by_angle.norm() * pose_size);
+  const Vector6d asked = RowsTimes(Y, turn, along) +
+                         RowsTimes(of_speeds * Y, twist.turn, twist.place) +
+                         RowsTimes(of_angles * Y, pose.turn, pose.place) +
+                         of_speeds.cwiseAbs() * twist.rest + of_angles.cwiseAbs() * pose.rest +
+                         sums * Y.rowwise().norm();
   return ResolvedRounding(asked, leg.of_inverse);
 }
 

@@ -67,40 +67,130 @@ BodyRounding OfWaist(const RobotModel& robot, const IntervalMotion& motion,
   return waist;
 }
 
-// As RobotDynamics goes along a leg. All points of it are no farther from O than `far`.
-void FollowLeg(Side side, const IntervalMotion& motion, const RobotDynamics& at_m,
-               const BodyRounding& waist, double far, const Vector6d& accelerations_off,
-               std::array<BodyRounding, 6>* links) {
-  const LegRounding& leg = Nth(motion.rounding.legs, Index(side));
-  const Vector6d& speeds = Nth(motion.posture.speeds, Index(side));
-  const double turn = LegTurnRounding(motion, side), place = leg.points + 8.0 * kRoundoff * far;
-  const double lever = place + far * turn;  // of a point × an axis
-  const RobotDynamics::Body* parent = &at_m.waist();
-  BodyRounding link = waist;
-  double added = 0.0;  // what q̈ adds, all joints together
-  for (size_t j = 0; j < 6; ++j) {
-    const Eigen::Index i = static_cast<Eigen::Index>(j);
-    const BodySizes at(*parent);
-    const double q1 = std::abs(speeds[i]), q2 = std::abs(at_m.accelerations(side)[i]);
-    const double off1 = leg.speeds[i], off2 = accelerations_off[i];
-    // Of the joint's twist q̇ S and of q̈ S.
-    const double w = Product(q1, off1, 1.0, turn), v = Product(q1, off1, far, lever);
-    added += q2 * (1.0 + far);
-    link.spin1 += Product(q2, off2, 1.0, turn) + Product(at.spin, link.spin, q1, w) +
-                  64.0 * kRoundoff * (added + at.spin1 + at.spin * q1);
-    link.acceleration +=
-        Product(q2, off2, far, lever) + Product(at.spin, link.spin, far * q1, v) +
-        Product(at.velocity, link.velocity, q1, w) +
-        64.0 * kRoundoff * (added + at.acceleration + at.spin * far * q1 + at.velocity * q1);
-    link.spin += w + 16.0 * kRoundoff * (at.spin + q1);
-    link.velocity += v + 16.0 * kRoundoff * (at.velocity + far * q1);
-    link.turn = turn;
-    link.place = place;
-    parent = &at_m.leg(side)[j];
-    (*links)[j] = link;
-    AddArithmetic(*parent, &(*links)[j]);
-  }
+// Of the body that is the sole: what it misses of the sole's motion, which is given.
+BodyRounding OfSole(Side side, const IntervalMotion& motion, const RobotDynamics& at_m,
+                    double gravity) {
+  const size_t s = static_cast<size_t>(Index(side));
+  const int foot = FootIndex(side), yaw = foot + 3;
+  const WalkJet &jet = motion.jet, &off = motion.off;
+  const Eigen::Isometry3d &placed = motion.posture.X_WLink[s][6], &X = motion.posture.X_WSole[s];
+  const Vector3d sole = X.translation() - at_m.O();
+  const Vector3d foot1 = jet.first.segment<3>(foot), foot2 = jet.second.segment<3>(foot);
+  const double arm = sole.norm(), speed = foot1.norm(), speed_off = off.first.segment<3>(foot).sum();
+  const double rate = std::abs(jet.first[yaw]), rate1 = std::abs(jet.second[yaw]);
+  const double place_off = off.value.segment<3>(foot).sum() + 4.0 * kRoundoff * arm;
+  const Vector6d missing =
+      UprightVelocity(sole, foot1, jet.first[yaw]) - at_m.leg(side)[5].velocity;
+  Vector6d missing1 = UprightAcceleration(sole, foot1, foot2, jet.first[yaw], jet.second[yaw]) -
+                      at_m.leg(side)[5].acceleration;
+  missing1[5] += gravity;
+  BodyRounding body;
+  body.turn = 0.75 * (placed.linear() - X.linear()).norm() + off.value[yaw] + 24.0 * kRoundoff;
+  body.place = (placed.translation() - X.translation()).norm() + place_off;
+  body.spin = missing.head<3>().norm() + off.first[yaw];
+  body.velocity = missing.tail<3>().norm() + speed_off +
+                  Product(rate, off.first[yaw], arm, place_off) +
+                  16.0 * kRoundoff * (speed + rate * arm);
+  body.spin1 = missing1.head<3>().norm() + off.second[yaw];
+  body.acceleration = missing1.tail<3>().norm() + off.second.segment<3>(foot).sum() +
+                      Product(rate1, off.second[yaw], arm, place_off) +
+                      Product(rate, off.first[yaw], speed, speed_off) +
+                      32.0 * kRoundoff * (foot2.norm() + gravity + rate1 * arm + rate * speed);
+  return body;
 }
+
+// Goes along a leg from a base, joint by joint: the sum or the difference that RobotDynamics takes.
+class LegWay {
+ public:
+  LegWay(Side side, const IntervalMotion& motion, const RobotDynamics& at_m,
+         const Vector6d& accelerations_off)
+      : leg_(Nth(motion.rounding.legs, Index(side))),
+        links_(at_m.leg(side)),
+        speeds_(Nth(motion.posture.speeds, Index(side))),
+        accelerations_(at_m.accelerations(side)),
+        accelerations_off_(accelerations_off) {
+    const Posture& posture = motion.posture;
+    const auto& frames = Nth(posture.frames, Index(side));
+    for (size_t j = 0; j < 6; ++j) points_[j] = posture.X_WB * frames.point_B[j] - at_m.O();
+    points_[6] = Nth(posture.X_WSole, Index(side)).translation() - at_m.O();
+    far_ = 12.0 * kRoundoff *
+           (posture.X_WB.translation().cwiseAbs().sum() + at_m.O().cwiseAbs().sum() + leg_.chain);
+    for (size_t j = 0; j < 6; ++j) {
+      added_ += std::abs(accelerations_[static_cast<Eigen::Index>(j)]) *
+                (1.0 + links_[j].screw.tail<3>().norm());
+    }
+  }
+
+  // Links 0–2 from the waist.
+  void Down(const BodyRounding& waist, const RobotDynamics::Body& body, const Vector3d& origin,
+            std::array<BodyRounding, 6>* links) {
+    Begin(waist, (points_[0] - origin).norm());
+    const RobotDynamics::Body* parent = &body;
+    for (size_t j = 0; j < 3; ++j) {
+      Joint(j, *parent);
+      parent = &links_[j];
+      (*links)[j] = Link(j, points_[j], points_[j + 1]);
+    }
+  }
+  // Links 5–3 from the sole.
+  void Up(const BodyRounding& sole, std::array<BodyRounding, 6>* links) {
+    Begin(sole, 0.0);
+    turn_ += leg_.placed_turn;
+    for (size_t j = 6; j > 3; --j) {
+      if (j < 6) Joint(j, links_[j]);
+      (*links)[j - 1] = Link(j - 1, points_[j], points_[j - 1]);
+    }
+  }
+
+ private:
+  void Begin(const BodyRounding& base, double distance) {
+    link_ = base;
+    turn_ = base.turn;
+    place_ = base.place + distance * base.turn;
+  }
+  // The body beyond a joint from the one before, `at`.
+  void Joint(size_t joint, const RobotDynamics::Body& at_m) {
+    const BodySizes at(at_m);
+    const Eigen::Index i = static_cast<Eigen::Index>(joint);
+    const double q1 = std::abs(speeds_[i]), q2 = std::abs(accelerations_[i]);
+    const double off1 = leg_.speeds[i], off2 = accelerations_off_[i];
+    // Of the joint's twist q̇ S and of q̈ S.
+    const double turn = turn_ + leg_.placed_turn + 16.0 * kRoundoff;
+    const double arm = links_[joint].screw.tail<3>().norm();
+    const double lever = place_ + leg_.placed + 8.0 * kRoundoff * arm +
+                         points_[joint].norm() * turn;  // of a point × an axis
+    const double w = Product(q1, off1, 1.0, turn), v = Product(q1, off1, arm, lever);
+    const double both = at.spin + q1;  // not less than that of either body
+    link_.spin1 += Product(q2, off2, 1.0, turn) + Product(at.spin, link_.spin, q1, w) +
+                   64.0 * kRoundoff * (added_ + at.spin1 + both * q1);
+    link_.acceleration +=
+        Product(q2, off2, arm, lever) + Product(at.spin, link_.spin, arm * q1, v) +
+        Product(at.velocity, link_.velocity, q1, w) +
+        64.0 * kRoundoff * (added_ + at.acceleration + (both * arm + at.velocity) * q1);
+    link_.spin += w + 16.0 * kRoundoff * (at.spin + q1);
+    link_.velocity += v + 16.0 * kRoundoff * (at.velocity + arm * q1);
+    turn_ += leg_.q[i];
+  }
+  // Of a link between two points, of which place_ is of the first.
+  BodyRounding Link(size_t link, const Vector3d& from, const Vector3d& to) {
+    const double length = (to - from).norm() + 2.0 * leg_.placed;
+    link_.turn = turn_ + leg_.placed_turn + 16.0 * kRoundoff;
+    link_.place = place_ + turn_ * std::max(length, (links_[link].inertia.com - from).norm()) +
+                  leg_.placed + far_;
+    place_ += turn_ * length;
+    BodyRounding whole = link_;
+    AddArithmetic(links_[link], &whole);
+    return whole;
+  }
+
+  const LegRounding& leg_;
+  const RobotDynamics::LegBodies& links_;
+  const Vector6d &speeds_, &accelerations_, &accelerations_off_;
+  std::array<Vector3d, 7> points_;  // axes' and the sole's, from O
+  double far_, added_ = 0.0;        // of coordinates in W; what q̈ adds, all joints together
+  BodyRounding link_;
+  double turn_ = 0.0, place_ = 0.0;  // of what is exactly at the computed angles, at a point
+};
 
 bool IsFinite(const BodyRounding& off) {
   return std::isfinite(off.turn + off.place + off.spin + off.velocity + off.spin1 +
@@ -151,13 +241,12 @@ DynamicsRounding DynamicsRounding::At(const RobotModel& robot, const IntervalMot
   off.sums = {off.waist.moment, off.waist.force};
   const Eigen::Isometry3d& X_WB = motion.posture.X_WB;
   for (const Side side : {Side::kLeft, Side::kRight}) {
-    const LegRounding& leg = Nth(motion.rounding.legs, Index(side));
     Vector6d& accelerations = Nth(off.accelerations, Index(side));
-    accelerations = AccelerationRounding(motion, at_m, side, gravity);
-    // The way from O to the waist and along the leg.
-    const double far = std::abs(X_WB.translation().z()) + leg.chain;
+    accelerations = AccelerationRounding(motion, at_m, off.waist, side, gravity);
     auto& links = Nth(off.legs, Index(side));
-    FollowLeg(side, motion, at_m, off.waist, far + leg.points, accelerations, &links);
+    LegWay way(side, motion, at_m, accelerations);
+    way.Down(off.waist, at_m.waist(), X_WB.translation() - at_m.O(), &links);
+    way.Up(OfSole(side, motion, at_m, gravity), &links);
     off.known = off.known && accelerations.allFinite();
     for (const BodyRounding& link : links) {
       off.known = off.known && IsFinite(link);

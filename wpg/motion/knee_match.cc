@@ -35,7 +35,10 @@ KneeMatch::KneeMatch(const IntervalMotion& motion, Side side) {
   const LegRounding& leg = motion.rounding.legs[s];
   const double turn = WaistTurnRounding(motion);
   distance_off_ = 2.0 * leg.points;
-  off_ = leg.of_inverse + Most(turn, 2.0 * distance_off_ + turn * leg.chain);
+  const double far = posture.X_WB.translation().norm() + leg.chain;
+  const double lever_off = leg.pose.place + (leg.pose.turn + leg.q[4] + leg.q[5]) * leg.chain +
+                           2.0 * leg.placed + 32.0 * kRoundoff * far;
+  off_ = leg.of_inverse + Most(turn, lever_off + turn * leg.chain);
 }
 
 // A column of J is an axis, and the axis × its arm to the knee. Both turn with the links.

@@ -24,7 +24,8 @@ class Chain {
         waist_point_(motion.posture.X_WB.translation()),
         sole_point_(Nth(motion.posture.X_WSole, Index(side)).translation()) {
     const auto& links_off = Nth(off.legs, Index(side));
-    off_ = 2.0 * links_off[0].place;
+    hip_off_ = 2.0 * links_off[0].place;
+    sole_off_ = 2.0 * links_off[5].place;
     for (size_t j = 0; j < 6; ++j) {
       const RobotDynamics::Body& link = at_m.leg(side)[j];
       speed_[j] = link.velocity.head<3>().norm() + links_off[j].spin;
@@ -38,14 +39,14 @@ class Chain {
 
   // Places the links. With `true_motion`, joints move as the robot's do, not with the q̈ of m.
   void Place(const std::array<JointDrift, 6>& joints, bool true_motion) {
-    RigidDrift parent = waist_.At((knee_.points()[0] - waist_point_).norm() + off_);
+    RigidDrift parent = waist_.At((knee_.points()[0] - waist_point_).norm() + hip_off_);
     for (size_t j = 0; j < 3; ++j) {
       links[j] = Turned(parent, joints[j], speed_[j], acceleration_[j], h_);
       Narrow(j, waist_, true_motion);
       parent = links[j].At(knee_.Distance(j, j + 1));
     }
     links[5] = sole_;
-    links[4] = Turned(sole_.At((knee_.points()[5] - sole_point_).norm() + off_), joints[5],
+    links[4] = Turned(sole_.At((knee_.points()[5] - sole_point_).norm() + sole_off_), joints[5],
                       speed_[4], acceleration_[4], h_);
     Narrow(4, sole_, true_motion);
     links[3] =
@@ -90,7 +91,7 @@ class Chain {
   Vector3d waist_point_, sole_point_;
   std::array<double, 6> speed_, acceleration_;  // of the links at m
   std::array<double, 6> from_base_;             // ‖ω̇ less that of waist or sole‖ at m
-  double off_;  // of a distance of two points of the leg, by rounding
+  double hip_off_, sole_off_;  // of distances of two points of the first and last link, by rounding
 };
 
 // Of an upright frame whose origin moves as the quantity `x`, the one after it, and `z`.

@@ -11,8 +11,9 @@ namespace {
 using Eigen::Vector3d;
 
 // Of an upright frame whose origin moves as the quantity `x`, the one after it, and `height`.
+// Rounding turns what is fixed in it by `turn_off`, and moves its points by `place_off`.
 RigidMotion UprightMotion(const IntervalMotion& motion, const WalkThirds& thirds, int x, int height,
-                          int yaw) {
+                          int yaw, double turn_off, double place_off) {
   const double h = motion.half_width;
   const WalkJet& off = motion.off;
   const Vector3d z = Vector3d::UnitZ();
@@ -29,12 +30,8 @@ RigidMotion UprightMotion(const IntervalMotion& motion, const WalkThirds& thirds
   frame.p1 = {place(motion.jet.first),
               h * std::min(place(motion.second).norm(), frame.p2.most()) + place(off.first).norm()};
   frame.p = {place(motion.jet.value), h * frame.p1.most() + place(off.value).norm()};
-  const PostureRounding& rounding = motion.rounding;
-  frame.arm_off =
-      2.0 * std::max({rounding.waist, rounding.legs[0].points, rounding.legs[1].points});
-  frame.turn_off =
-      std::max(LegTurnRounding(motion, Side::kLeft), LegTurnRounding(motion, Side::kRight)) +
-      off.value[yaw];
+  frame.arm_off = 2.0 * place_off;
+  frame.turn_off = turn_off + off.value[yaw];
   frame.BoundTurned(h);
   return frame;
 }
@@ -70,6 +67,9 @@ class LinkChain {
       Narrow(j, true_thirds);
     }
     links[5] = sole_;
+    links[5].arm_off = 2.0 * off_[5].place;
+    links[5].turn_off = off_[5].turn;
+    links[5].BoundTurned(h_);
     for (size_t j = 5; j > 3; --j) {
       links[j - 1] = turned(links[j], j, -1.0);
       Narrow(j - 1, true_thirds);
@@ -89,6 +89,8 @@ class LinkChain {
   // than the computed one is from both.
   void Narrow(size_t j, bool true_thirds) {
     RigidMotion& link = links[j];
+    link.arm_off = 2.0 * off_[j].place;
+    link.turn_off = off_[j].turn;
     const RigidDrift& drift = drift_.links[j];
     const RobotDynamics::Body& at_m = leg_[j];
     const Vector3d point = link.p.center - O_, turn = at_m.velocity.head<3>();
@@ -127,14 +129,16 @@ class LinkChain {
 
 RigidMotion MotionOfWaist(const RobotModel& robot, const IntervalMotion& motion,
                           const WalkThirds& thirds) {
-  RigidMotion waist = UprightMotion(motion, thirds, kComX, kWaistZ, kWaistYaw);
+  RigidMotion waist = UprightMotion(motion, thirds, kComX, kWaistZ, kWaistYaw,
+                                    WaistTurnRounding(motion), motion.rounding.waist);
   waist.p.center.z() += robot.waist_height;
   return waist;
 }
 
 RigidMotion MotionOfSole(const IntervalMotion& motion, const WalkThirds& thirds, Side side) {
   const int foot = FootIndex(side);
-  return UprightMotion(motion, thirds, foot, foot + 2, foot + 3);
+  return UprightMotion(motion, thirds, foot, foot + 2, foot + 3, LegTurnRounding(motion, side),
+                       Nth(motion.rounding.legs, Index(side)).points);
 }
 
 std::optional<LegMotion> LegMotion::Over(Side side, const IntervalMotion& motion,

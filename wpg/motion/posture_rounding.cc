@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "wpg/motion/spatial.h"
 #include "wpg/nth.h"
 #include "wpg/rounded.h"
 
@@ -16,23 +17,30 @@ constexpr double kU = kRoundoff;
 
 double Sum(const Vector3d& x) { return x.cwiseAbs().sum(); }
 
-// How far the rotation and the origin of a leg's last frame may be from those of the exact leg at
-// these angles: PlaceLeg turns about axes that it has turned.
+// S of a matrix R(1 + S) that is nearly a rotation R, S symmetric.
+double Skew(const Eigen::Matrix3d& R) {
+  return 0.5 * (R.transpose() * R - Eigen::Matrix3d::Identity()).norm() + 16.0 * kU;
+}
+
+// How far axes' directions and points of a leg may be from those of the exact leg at these angles:
+// PlaceLeg turns about axes that it has turned.
 struct Placing {
   double turn = 0.0, place = 0.0;
 };
 
-Placing PlacingOf(const Vector6d& q, double chain) {
-  // R(1 + S) in place of R: a joint turns the antisymmetric part of S along, and makes the rest up
-  // to 1 + |sin q| + 2(1 − cos q) times as large.
-  double rest = 0.0;
+Placing PlacingOf(const LegFrames& frames, const Vector6d& q, double chain, double skew_of_links) {
+  // R(1 + S) in place of R: a joint carries R along, but for what S does to its axis and to turning
+  // about that, |sin q| + 2(1 − cos q) times as much.
+  double skew = 0.0, most = 0.0;
   Placing placing;
-  for (int j = 0; j < 6; ++j) {
-    const double angle = std::abs(q[j]), more = std::min(angle + angle * angle, 4.3);
-    const double own = (24.0 + 40.0 * std::min(angle, 1.3)) * kU;
-    placing.turn += more * rest + own;
-    rest = (1.0 + more) * rest + own;
+  for (size_t j = 0; j < 6; ++j) {
+    const double angle = std::abs(q[static_cast<Eigen::Index>(j)]);
+    const double more = std::min(angle + angle * angle, 4.3);
+    placing.turn += more * skew + (24.0 + 40.0 * std::min(angle, 1.3)) * kU;
+    skew = Skew(frames.X_BLink[j].linear()) + skew_of_links;
+    most = std::max(most, skew);
   }
+  placing.turn += most;
   placing.place = placing.turn * chain + 100.0 * kU * chain;
   return placing;
 }
@@ -42,6 +50,7 @@ struct Rows {
   explicit Rows(const Matrix6d& Y)
       : angular(Y.leftCols<3>().rowwise().norm()), linear(Y.rightCols<3>().rowwise().norm()) {}
   Vector6d Of(double turn, double place) const { return turn * angular + place * linear; }
+  Vector6d Of(const LegRounding::OfSole& off) const { return Of(off.turn, off.place); }
   Vector6d angular, linear;
 };
 
@@ -58,11 +67,12 @@ RoundingOfPostures::RoundingOfPostures(const RobotModel& robot)
   for (size_t s = 0; s < 2; ++s) {
     const Leg& leg = robot.legs[s];
     Vector3d at = Vector3d::Zero();
-    double chain = 0.0, link = 0.0, body_size = 0.0;
+    double chain = 0.0, link = 0.0, body_size = 0.0, skew = 0.0;
     for (const LegJoint& joint : leg.joints) {
       chain += (joint.point_B - at).norm();
       at = joint.point_B;
       link = std::max(link, (joint.X_BLink.translation() - at).norm());
+      skew = std::max(skew, Skew(joint.X_BLink.linear()));
     }
     chain += (leg.X_BSole.translation() - at).norm();
     for (const BodyMass& mass : robot.masses.links[s]) {
@@ -73,7 +83,7 @@ RoundingOfPostures::RoundingOfPostures(const RobotModel& robot)
       if (body.leg == static_cast<int>(s)) body_size = std::max(body_size, size);
       if (body.leg < 0) waist_ = std::max(waist_, size);
     }
-    legs_[s] = {chain, chain + link + body_size};
+    legs_[s] = {chain, chain + link + body_size, skew};
   }
 }
 
@@ -96,7 +106,7 @@ RoundingOfPostures::Upright RoundingOfPostures::WaistOf(const RobotModel& robot,
 LegRounding RoundingOfPostures::OfLeg(Side side, const WalkJet& jet, const WalkJet& walk,
                                       const Upright& waist, const Posture& posture) const {
   const size_t s = static_cast<size_t>(Index(side));
-  const auto& [chain, farthest] = legs_[s];
+  const auto& [chain, farthest, skew] = legs_[s];
   const int foot = FootIndex(side);
   const LegFrames& frames = posture.frames[s];
   const Vector6d& q = posture.ik[s].q;
@@ -108,7 +118,7 @@ LegRounding RoundingOfPostures::OfLeg(Side side, const WalkJet& jet, const WalkJ
   // Pose of the sole in B: that of the computed angles, and the demanded one.
   const Eigen::Matrix3d R = R_BW * posture.X_WSole[s].linear();
   const Eigen::Isometry3d& placed = frames.X_BLink[6];
-  const Placing placing = PlacingOf(q, chain);
+  const Placing placing = PlacingOf(frames, q, chain, skew);
   const double sole = walk.value.segment<3>(foot).sum(), sole_turn = walk.value[foot + 3];
   const double demanded = waist.place + sole + waist.turn * lever + 12.0 * kU * lever;
   const double place = (placed.translation() - R_BW * lever_W).norm() + placing.place + demanded;
@@ -123,13 +133,17 @@ LegRounding RoundingOfPostures::OfLeg(Side side, const WalkJet& jet, const WalkJ
   const Vector6d left = (Matrix6d::Identity() - Y * J).cwiseAbs().rowwise().sum() +
                         64.0 * kU * (Y.cwiseAbs() * J.cwiseAbs()).rowwise().sum() +
                         6.0 * rows.Of(of_axes, of_points);
-  const Vector6d asked = rows.Of(turn, place), bent = rows.Of(1.0, 2.0 * chain);
+  LegRounding rounding;
+  rounding.pose = {.turn = turn, .place = place};
+  rounding.placed_turn = of_axes;
+  rounding.placed = placing.place;
+  const Vector6d asked = rows.Of(rounding.pose), bent = rows.Of(1.0, 2.0 * chain);
   const double share = left.maxCoeff(), y = asked.maxCoeff();
   // Twice what the linear part lets the angles be off: a path from the computed angles to the exact
   // ones cannot leave that where it is resolved.
   const double most = share < 0.5 ? 4.0 * y : std::numeric_limits<double>::infinity();
-  LegRounding rounding;
   rounding.q = ResolvedRounding(asked, left + 36.0 * most * bent);
+  rounding.pose.rest = rounding.q - asked;
 
   // Distance of hip and ankle: from the pose, or from the knee's angle.
   rounding.reach = robot_.legs[s].closed_form()
@@ -152,16 +166,33 @@ LegRounding RoundingOfPostures::OfLeg(Side side, const WalkJet& jet, const WalkJ
   const Vector6d missing = twist - J * speeds;
   const double all = speeds.cwiseAbs().sum();
   const double parts = v.segment<3>(foot).norm() + posture.waist_velocity.norm() + rate * lever;
-  const double axes = turned + 4.0 * kU, points = 3.0 * (chain * turned + placing.place);
-  const double twist_turn = missing.head<3>().norm() + waist.rate + walk.first[foot + 3] +
-                            axes * all + 16.0 * kU * (all + rate + std::abs(v[foot + 3]));
-  const double twist_speed = missing.tail<3>().norm() + waist.speed +
-                             walk.first.segment<3>(foot).sum() + lever * waist.rate +
-                             rate * (waist.place + sole) + waist.turn * parts + points * all +
-                             24.0 * kU * (parts + chain * all);
+  // H, and what the angles' errors do to the columns of J, to first order; and all beyond.
+  Matrix6d H = Matrix6d::Zero();
+  double bent_turn = 0.0, bent_place = 0.0;
+  for (Eigen::Index l = 0; l < 5; ++l) {
+    for (Eigen::Index j = l + 1; j < 6; ++j) {
+      const Vector6d change = CrossMotion(J.col(l), J.col(j));
+      H.col(l) += speeds[j] * change;
+      bent_turn += rounding.q[l] * change.head<3>().norm();
+      bent_place += rounding.q[l] * change.tail<3>().norm();
+    }
+  }
+  const double beyond = 32.0 * turned * (turned + 64.0 * kU);
+  rounding.of_inverse = left + rows.Of(bent_turn + beyond, bent_place + chain * beyond);
+  LegRounding::OfSole& of_twist = rounding.twist;
+  of_twist.turn = missing.head<3>().norm() + waist.rate + walk.first[foot + 3] + of_axes * all +
+                  16.0 * kU * (all + rate + std::abs(v[foot + 3])) + beyond * all;
+  of_twist.place = missing.tail<3>().norm() + waist.speed + walk.first.segment<3>(foot).sum() +
+                   lever * waist.rate + rate * (waist.place + sole) +
+                   std::abs(v[foot + 3] - v[kWaistYaw]) * place + waist.turn * parts +
+                   of_points * all + 24.0 * kU * (parts + chain * all) + chain * beyond * all;
   rounding.chain = chain;
-  rounding.of_inverse = left + 6.0 * rows.Of(axes, points);
-  rounding.speeds = ResolvedRounding(rows.Of(twist_turn, twist_speed), rounding.of_inverse);
+  const Matrix6d Z = Y * H, ZY = Z * Y;
+  const double sums = 64.0 * kU * H.norm() * Y.norm() * (turn + place);
+  const Vector6d of_speeds = rows.Of(of_twist) + Rows(ZY).Of(rounding.pose) +
+                             Z.cwiseAbs() * rounding.pose.rest + sums * Y.rowwise().norm();
+  rounding.speeds = ResolvedRounding(of_speeds, rounding.of_inverse);
+  of_twist.rest = rounding.speeds - of_speeds;
   rounding.point_speeds =
       waist.speed +
       farthest * (waist.rate + rounding.speeds.sum() + (all + rate) * (2.0 * turned + waist.turn)) +

@@ -34,9 +34,10 @@ class RoundingOfPostures {
 
  private:
   // Of a leg: the way along it from B's origin over its axes to the sole, in any posture; how far a
-  // point of it or of its bodies may be from any of its axes, and from B's origin [m].
+  // point of it or of its bodies may be from any of its axes, and from B's origin [m]. How far the
+  // links' frames are from being orthogonal.
   struct Sizes {
-    double chain = 0.0, farthest = 0.0;
+    double chain = 0.0, farthest = 0.0, skew = 0.0;
   };
   // Errors of an upright frame: of its origin [m], its velocity [m/s], its yaw and yaw rate.
   struct Upright {
