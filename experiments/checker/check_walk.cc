@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "experiments/checker/standing_soles.h"
+#include "experiments/checker/tube_loss.h"
 #include "experiments/checker/walk_statements.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/text.h"
@@ -130,17 +132,6 @@ void AddTimes(const WalkMotion& motion, double demanded, TrajectoryCheck* check)
   }
 }
 
-void RefuseUnknown(const RobotModel& robot, const verify::CertificateText& certificate) {
-  if (certificate.tube) {
-    throw InputError({"the certificate is of a tube (valid here: of the walk alone)"});
-  }
-  for (const Leg& leg : robot.legs) {
-    if (leg.closed_form()) continue;
-    throw InputError({"the robot's " + leg.offsets +
-                      " (valid here: hip axes that meet, and ankle axes that do)"});
-  }
-}
-
 }  // namespace
 
 Kind KindOf(verify::Family family) {
@@ -157,14 +148,25 @@ TrajectoryCheck CheckWalk(const WalkMotion& motion, const RobotModel& robot, con
                           const verify::CertificateText& certificate, double crouch,
                           const std::function<bool(double done)>& progress, ProofHints* hints,
                           double from) {
-  RefuseUnknown(robot, certificate);
+  std::optional<TubeLoss> tube;
+  if (certificate.tube) tube.emplace(*certificate.tube, robot);
+  if (tube && !scene.ground->Solids().empty()) {
+    throw InputError({"the certificate is of a tube over solid ground (valid here: one level)"});
+  }
+  verify::CertificateText asked = certificate;
+  for (size_t f = 0; tube && f < verify::kNumFamilies; ++f) {
+    asked.demanded[f] = tube->Demanded(static_cast<verify::Family>(f), asked.demanded[f]);
+  }
   TrajectoryCheck check;
   ProofHints found;
   if (hints == nullptr) hints = &found;
-  WalkStatements statements(robot, scene, certificate);
-  const auto demanded = [&](verify::Family family) { return Nth(certificate.demanded, family); };
+  WalkStatements statements(robot, scene, asked);
+  for (WalkStatement& of : statements.all()) {
+    if (tube) of.demanded = tube->Demanded(of);
+  }
+  const auto demanded = [&](verify::Family family) { return Nth(asked.demanded, family); };
   AddTimes(motion, demanded(verify::kDoubleSupport), &check);
-  AddStandingSoles(motion, robot, scene, certificate, from, hints, &check);
+  AddStandingSoles(motion, robot, scene, asked, from, hints, &check);
   WalkProof proof(robot, motion, crouch, &statements, hints, &check);
   std::vector<double> knots = motion.knots(), waypoints = statements.WaypointTimes();
   waypoints.push_back(from);

@@ -18,8 +18,9 @@ namespace halfstep::checker {
 /// of smoothing/README.md, "Margins"; what is demanded of a family that is not looked at is among
 /// `not_covered`. `crouch`: how far the waist is kept below where the robot file has it [m].
 /// `progress(done)`, done ∈ [0, 1], says whether to go on. `hints`: where directions that were
-/// found are noted, or those that are told. Throws InputError for walks, robots and scenes of which
-/// nothing can be said here: offset legs, tubes, maps. Source: experiments/check.md.
+/// found are noted, or those that are told. With a tube every motion in it keeps what was demanded
+/// before the tube raised it. Throws InputError for scenes of which nothing can be said here: maps,
+/// hollow meshes. Source: experiments/check.md.
 TrajectoryCheck CheckWalk(const WalkMotion& motion, const RobotModel& robot, const Scene& scene,
                           const verify::CertificateText& certificate, double crouch,
                           const std::function<bool(double done)>& progress = {},

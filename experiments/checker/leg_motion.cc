@@ -1,5 +1,6 @@
 #include "experiments/checker/leg_motion.h"
 
+#include "experiments/checker/offset_leg.h"
 #include "wpg/geometry/rotation.h"
 
 namespace halfstep::checker {
@@ -47,10 +48,28 @@ FrameIn<Curve> TurnThrough(const LegJoint& joint, const Vector3d& point, const T
   return frame;
 }
 
+// Links 0 to 2 hang on the waist, 3 to 5 on the sole.
+LegPosture Placed(const Leg& leg, const FrameIn<Curve>& X_WB, const FrameIn<Curve>& carried,
+                  const std::array<Turn, 6>& turns) {
+  LegPosture posture;
+  FrameIn<Curve> moved = X_WB;
+  for (size_t i = 0; i < 3; ++i) {
+    moved = moved * TurnThrough(leg.joints[i], leg.AxisPoint(i), turns[i]);
+    posture.X_WLink[i] = moved * FrameOf<Curve>(leg.joints[i].X_BLink);
+  }
+  moved = carried;
+  for (size_t i = 6; i-- > 3;) {
+    posture.X_WLink[i] = moved * FrameOf<Curve>(leg.joints[i].X_BLink);
+    if (i > 3) moved = moved * TurnThrough(leg.joints[i], leg.AxisPoint(i), turns[i].Back());
+  }
+  return posture;
+}
+
 }  // namespace
 
 LegSolver::LegSolver(const Leg& leg) : leg_(leg), X_SoleB_(FrameOf<Curve>(leg.X_BSole).Inverse()) {
   const auto& j = leg.joints;
+  if (!leg.closed_form()) offset_ = std::make_shared<const OffsetLeg>(leg, leg.met.front());
   const Vector axis = VectorOf(j[3].axis_B), point = VectorOf(j[3].point_B);
   hip_ = VectorOf(leg.hip_B) - point;
   ankle_ = VectorOf(leg.ankle_B) - point;
@@ -75,7 +94,25 @@ Curve LegSolver::Reach(const FrameIn<Curve>& X_WB, const FrameIn<Curve>& carried
   return Curve(Sqrt(squares_ + Interval(2.0) * levers_)) - Sqrt(Dot(between, between));
 }
 
+Curve LegSolver::Reach(const Curve& knee) const {
+  const auto [s, c] = SinCosOf(knee);
+  const Curve cos_psi = cos_zero_ * c - sin_zero_ * s;
+  const Interval twice = Interval(2.0) * levers_;
+  return Curve(Sqrt(squares_ + twice)) - Sqrt(Curve(squares_) - twice * cos_psi);
+}
+
 LegPosture LegSolver::At(const FrameIn<Curve>& X_WB, const FrameIn<Curve>& carried) const {
+  std::array<Turn, 6> turns;
+  if (offset_ != nullptr) {
+    const std::array<Curve, 6> q = offset_->At(X_WB, carried);
+    for (size_t i = 0; i < 6; ++i) {
+      const auto [s, c] = SinCosOf(q[i]);
+      turns[i] = {s, c};
+    }
+    LegPosture posture = Placed(leg_, X_WB, carried, turns);
+    posture.q = q;
+    return posture;
+  }
   const auto& j = leg_.joints;
   const Curves3 hip_W = X_WB * Constant(leg_.hip_B), ankle_W = carried * Constant(leg_.ankle_B);
   const Curves3 between = ankle_W - hip_W;
@@ -83,7 +120,6 @@ LegPosture LegSolver::At(const FrameIn<Curve>& X_WB, const FrameIn<Curve>& carri
 
   const Curve cos_psi = (Interval(0.5) / levers_) * (Curve(squares_) - square);
   const Curve sin_psi = knee_ * Sqrt((Curve(1.0) - cos_psi) * (Curve(1.0) + cos_psi));
-  std::array<Turn, 6> turns;
   turns[3] = {cos_zero_ * sin_psi - sin_zero_ * cos_psi, cos_zero_ * cos_psi + sin_zero_ * sin_psi};
 
   // About the ankle: e_3⁻¹h, and the hip seen from the foot.
@@ -110,18 +146,7 @@ LegPosture LegSolver::At(const FrameIn<Curve>& X_WB, const FrameIn<Curve>& carri
   turns[2] = TurnFromTo(j[2].axis_B, second, Constant(j[1].axis_B),
                         across(1.0, Curve(Dot(j[2].axis_B, VectorOf(j[1].axis_B)))));
 
-  // Links 0 to 2 hang on the waist, 3 to 5 on the sole.
-  LegPosture posture;
-  FrameIn<Curve> moved = X_WB;
-  for (size_t i = 0; i < 3; ++i) {
-    moved = moved * TurnThrough(j[i], leg_.hip_B, turns[i]);
-    posture.X_WLink[i] = moved * FrameOf<Curve>(j[i].X_BLink);
-  }
-  moved = carried;
-  for (size_t i = 6; i-- > 3;) {
-    posture.X_WLink[i] = moved * FrameOf<Curve>(j[i].X_BLink);
-    if (i > 3) moved = moved * TurnThrough(j[i], leg_.ankle_B, turns[i].Back());
-  }
+  LegPosture posture = Placed(leg_, X_WB, carried, turns);
   for (size_t i = 0; i < 6; ++i) posture.q[i] = turns[i].Angle();
   return posture;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 
 #include "experiments/checker/taylor.h"
 #include "wpg/robot/robot_model.h"
@@ -13,24 +14,29 @@ struct LegPosture {
   std::array<FrameIn<Curve>, 6> X_WLink;  ///< frames of the links
 };
 
-/// Inverse kinematics of a leg whose hip axes meet in a point and whose ankle axes do, in the
-/// branch of its standing posture, of functions of time. Source: wpg/README.md, "Leg inverse
-/// kinematics", whose symbols these are.
+class OffsetLeg;
+
+/// Inverse kinematics of a leg in the branch of its standing posture, of functions of time: in
+/// closed form, or where axes of hip or ankle miss each other by OffsetLeg. Source: wpg/README.md,
+/// "Leg inverse kinematics", whose symbols these are.
 class LegSolver {
  public:
-  /// Borrows the leg. Precondition: it has a closed form.
+  /// Borrows the leg.
   explicit LegSolver(const Leg& leg);
 
   /// Frame of W where the sole was at q = 0, carried by the sole: X_WSole·X_BSole(0)⁻¹.
   FrameIn<Curve> Carried(const FrameIn<Curve>& X_WSole) const { return X_WSole * X_SoleB_; }
-  /// Stretched length − hip–ankle distance [m].
+  /// Stretched length − hip–ankle distance [m] of a leg with a closed form.
   Curve Reach(const FrameIn<Curve>& X_WB, const FrameIn<Curve>& carried) const;
+  /// The same of any leg, by its knee's angle [rad].
+  Curve Reach(const Curve& knee) const;
   /// For an upright waist and a sole that is turned by `yaw` from it and has carried the zero
   /// posture there. Throws NotDefined where a singularity is not excluded.
   LegPosture At(const FrameIn<Curve>& X_WB, const FrameIn<Curve>& carried) const;
 
  private:
   const Leg& leg_;
+  std::shared_ptr<const OffsetLeg> offset_;  // null: it has a closed form
   FrameIn<Curve> X_SoleB_;
   Vector hip_, ankle_;                                     // seen from a point on the knee's axis
   Interval along_, levers_;                                // a∥ − h∥, r_h r_a

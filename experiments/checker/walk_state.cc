@@ -75,7 +75,11 @@ WalkState::WalkState(const RobotModel& robot, const std::array<LegSolver, 2>& so
 }
 
 const LegPosture& WalkState::leg(size_t side) {
-  if (!legs_[side]) legs_[side] = solvers_[side].At(X_WB_, carried_[side]);
+  if (unknown_[side]) throw NotDefined();
+  if (legs_[side]) return *legs_[side];
+  unknown_[side] = true;
+  legs_[side] = solvers_[side].At(X_WB_, carried_[side]);
+  unknown_[side] = false;
   return *legs_[side];
 }
 

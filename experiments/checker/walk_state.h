@@ -69,7 +69,10 @@ class WalkState {
 
   const FrameIn<Curve>& sole(size_t side) const { return soles_[side]; }  ///< its frame in W
   /// Stretched leg − hip–ankle distance [m].
-  Curve reach(size_t side) const { return solvers_[side].Reach(X_WB_, carried_[side]); }
+  Curve reach(size_t side) {
+    return robot_.legs[side].closed_form() ? solvers_[side].Reach(X_WB_, carried_[side])
+                                           : solvers_[side].Reach(leg(side).q[3]);
+  }
   /// Throw NotDefined where the legs may not reach.
   const LegPosture& leg(size_t side);
   /// Of a robot's body: that of its link, or of the waist.
@@ -88,6 +91,7 @@ class WalkState {
   FrameIn<Curve> X_WB_;
   std::array<FrameIn<Curve>, 2> soles_, carried_;
   std::array<std::optional<LegPosture>, 2> legs_;
+  std::array<bool, 2> unknown_{};  // whether no posture was found
   std::vector<std::optional<Vector>> centers_;
   std::optional<Dynamics> dynamics_;
 };

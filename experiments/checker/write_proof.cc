@@ -221,6 +221,14 @@ std::string ProofText(const ProofFile& proof, const std::vector<std::string>& no
       })) {
     throw InputError({"--proof: the waist changes its height (valid here: one `crouch_m`)"});
   }
+  if (walk.certificate.tube) {
+    throw InputError({"--proof: the certificate is of a tube (valid here: of the walk alone)"});
+  }
+  for (const Leg& leg : walk.robot.legs) {
+    if (leg.closed_form()) continue;
+    throw InputError({"--proof: the robot's " + leg.offsets +
+                      " (valid here: hip axes that meet, and ankle axes that do)"});
+  }
   Json sources = Json::array();
   for (const InputFile& file : walk.files) {
     sources.push_back({{"file", file.name}, {"bytes", file.bytes}, {"sha256", file.sha256}});

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/oracle/project_side.h"
+#include "tests/oracle/unequal_legs.h"
 #include "tests/temporary_folder.h"
 
 namespace halfstep::checker {
@@ -11,13 +12,17 @@ namespace {
 
 TEST(ForgedCertificates, AreNotProved) {
   const TemporaryFolder folder;
-  const oracle::Judge judge(oracle::WriteJudgedRobot("wren", folder.path().string()));
+  const TemporaryFolder of_offset;
+  const oracle::Judge wren(oracle::WriteJudgedRobot("wren", folder.path().string()));
+  const oracle::Judge offset(
+      oracle::WriteUnequalRobot("hrp2", {.seed = 1, .offset = true}, of_offset.path().string()));
   ForgeryTally all;
   std::vector<std::string> falsehoods;
   for (const oracle::SceneKind kind :
        {oracle::SceneKind::kPrimitives, oracle::SceneKind::kPlatforms}) {
     for (unsigned seed = 1; seed < 4; ++seed) {
-      all.Add(judge.Forge(kind, seed, 2, folder.path().string(), &falsehoods));
+      all.Add(wren.Forge(kind, seed, 2, folder.path().string(), &falsehoods));
+      all.Add(offset.Forge(kind, seed, 1, of_offset.path().string(), &falsehoods));
     }
   }
   for (const std::string& told : falsehoods) ADD_FAILURE() << told;

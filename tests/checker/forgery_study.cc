@@ -1,6 +1,6 @@
 // Makes certificates of drawn walks wrong and asks `halfstep check` about them; the oracle says
 // which are false. Exit status 1 when one of these was proved. Run: forgery_study [FORGERIES [SEED
-// [hrp2|bison|wren|all|unequal [flat|levels]]]]
+// [hrp2|bison|wren|all|unequal|offset [flat|levels]]]]
 
 #include <cstdio>
 #include <cstdlib>
@@ -33,12 +33,13 @@ void Print(const char* what, const std::map<std::string, ForgeryTally::Count>& c
 
 int Run(long forgeries, unsigned seed, const std::string& only, bool levels) {
   const std::vector<std::string> shipped = {"hrp2", "bison", "wren"};
+  const bool drawn_legs = only == "unequal" || only == "offset";
   const std::vector<std::string> names =
-      only == "all" || only == "unequal" ? shipped : std::vector<std::string>{only};
+      only == "all" || drawn_legs ? shipped : std::vector<std::string>{only};
   const TemporaryFolder folder;
   std::vector<std::unique_ptr<oracle::Judge>> judges;
   for (const std::string& name : names) {
-    if (only == "unequal") break;
+    if (drawn_legs) break;
     judges.push_back(
         std::make_unique<oracle::Judge>(oracle::WriteJudgedRobot(name, folder.path().string())));
   }
@@ -53,9 +54,10 @@ int Run(long forgeries, unsigned seed, const std::string& only, bool levels) {
     const unsigned of_walk = seed * 1000000u + w;
     const TemporaryFolder own;
     std::unique_ptr<oracle::Judge> drawn;
-    if (only == "unequal") {
+    if (drawn_legs) {
       drawn = std::make_unique<oracle::Judge>(oracle::WriteUnequalRobot(
-          names[w % names.size()], {.seed = of_walk, .offset = false}, own.path().string()));
+          names[w % names.size()], {.seed = of_walk, .offset = only == "offset"},
+          own.path().string()));
     }
     const oracle::Judge& judge = drawn ? *drawn : *judges[w % judges.size()];
     const auto k = static_cast<unsigned>(w / names.size());
