@@ -31,8 +31,12 @@ BoundsTree::BoundsTree(const std::vector<Eigen::AlignedBox3d>& boxes, int32_t le
     const Task task = tasks.back();
     tasks.pop_back();
     const auto begin = order.begin() + task.first, end = begin + task.count;
-    Node node{.center = {}, .half = {}, .first = task.first, .count = task.count};
+    const auto left = static_cast<int32_t>(nodes.size());
+    Node& node = Nth(nodes, task.node);
+    node.first = task.first;
+    node.count = task.count;
     if (task.count > leaf) {
+      node.left = left;
       Eigen::AlignedBox3d of_middles;
       for (auto i = begin; i != end; ++i) of_middles.extend(Nth(middles, *i));
       int axis = 0;
@@ -42,13 +46,11 @@ BoundsTree::BoundsTree(const std::vector<Eigen::AlignedBox3d>& boxes, int32_t le
       for (auto i = begin; i != end; ++i) keys.emplace_back(Nth(middles, *i)[axis], *i);
       std::nth_element(keys.begin(), keys.begin() + below, keys.end());
       std::ranges::transform(keys, begin, &std::pair<double, int32_t>::second);
-      node.left = static_cast<int32_t>(nodes.size());
       nodes.emplace_back();
       nodes.emplace_back();
-      tasks.push_back({node.left, task.first, below});
-      tasks.push_back({node.left + 1, task.first + below, task.count - below});
+      tasks.push_back({left, task.first, below});
+      tasks.push_back({left + 1, task.first + below, task.count - below});
     }
-    Nth(nodes, task.node) = node;
   }
   // Children before their parents.
   std::vector<Eigen::AlignedBox3d> around(nodes.size());
