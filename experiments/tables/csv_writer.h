@@ -34,7 +34,11 @@ class CsvWriter {
 
   const std::string& text() const { return text_; }  ///< header and rows so far
   /// The same, which is then forgotten.
-  std::string TakeText() { return std::exchange(text_, {}); }
+  std::string TakeText() {
+    std::string text;
+    text.swap(text_);
+    return text;
+  }
   /// The table, whole.
   CsvFile file() const { return {columns_, text_}; }
 
