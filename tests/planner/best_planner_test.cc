@@ -26,7 +26,7 @@ PlanResult PlanBest(PlanRequest request, double effort, std::uint64_t seed = 1) 
 }
 
 // Also from far away and of states beyond the area; the first of equals.
-TEST(StateBuckets, FindTheNearestOfAll) {
+TEST(StateBuckets, FindTheNearestFromAfarAndOfEquals) {
   std::mt19937 random(1);
   for (int trial = 0; trial < 20; ++trial) {
     const double reach = trial % 2 == 0 ? 1.0 : 1.5;  // of states
