@@ -243,6 +243,7 @@ TEST(ReplayCommandControllers, AProgramAddsItsOwnAndMistakesAreTold) {
   const std::string run = (place / "run").string();
   ASSERT_EQ(halfstep::Run({.config = ShippedConfig("fig3_two_half_steps"),
                            .overrides = {},
+                           .methods = {},
                            .out = run,
                            .quiet = true}),
             kSuccess);

@@ -92,7 +92,11 @@ void CheckPhysics(const std::string& config, const std::vector<YamlOverride>& ov
                   const RobotModel& robot) {
   const TemporaryFolder place;
   const fs::path run = place / "run";
-  ASSERT_EQ(Run({.config = config, .overrides = overrides, .out = run.string(), .quiet = true}),
+  ASSERT_EQ(Run({.config = config,
+                 .overrides = overrides,
+                 .methods = {},
+                 .out = run.string(),
+                 .quiet = true}),
             kSuccess);
   for (const std::string method : {"raw", "dichotomy", "dichotomy_published"}) {
     SCOPED_TRACE(method);

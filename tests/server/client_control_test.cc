@@ -192,6 +192,7 @@ TEST_F(ControlledEpisode, AnEchoOfThePlanIsThePlanToTheByte) {
   LiveCommand same;
   same.run = {.config = (place_ / "small.yaml").string(),
               .overrides = {},
+              .methods = {},
               .out = (place_ / "two").string(),
               .quiet = true};
   same.in_physics = true;
