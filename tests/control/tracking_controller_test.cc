@@ -242,8 +242,8 @@ TEST(ReplayCommandControllers, AProgramAddsItsOwnAndMistakesAreTold) {
   const TemporaryFolder place;
   const std::string run = (place / "run").string();
   ASSERT_EQ(halfstep::Run({.config = ShippedConfig("fig3_two_half_steps"),
-                           .overrides = {},
                            .methods = {},
+                           .overrides = {},
                            .out = run,
                            .quiet = true}),
             kSuccess);

@@ -93,8 +93,8 @@ void CheckPhysics(const std::string& config, const std::vector<YamlOverride>& ov
   const TemporaryFolder place;
   const fs::path run = place / "run";
   ASSERT_EQ(Run({.config = config,
-                 .overrides = overrides,
                  .methods = {},
+                 .overrides = overrides,
                  .out = run.string(),
                  .quiet = true}),
             kSuccess);

@@ -191,8 +191,8 @@ TEST_F(ControlledEpisode, AnEchoOfThePlanIsThePlanToTheByte) {
 
   LiveCommand same;
   same.run = {.config = (place_ / "small.yaml").string(),
-              .overrides = {},
               .methods = {},
+              .overrides = {},
               .out = (place_ / "two").string(),
               .quiet = true};
   same.in_physics = true;
