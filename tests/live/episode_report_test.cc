@@ -203,7 +203,7 @@ TEST_F(EpisodeReportTest, FootstepsOfARecordedWalkFollowThoseOfTheOneBefore) {
   // More than an hour of worlds: fewer of them are shown, and the page says so. Of hand-overs in a
   // row those of walks that are shown are told, and the first, which may be why the robot stopped.
   for (const char* what : {"unsafe", "handed_over", "handed_over", "handed_over", "stopped"}) {
-    episode.events.push_back({.t = episode.end, .what = what, .walk = 1});
+    episode.events.push_back({.t = episode.end, .what = what, .walk = 1, .text = ""});
   }
   episode.walks.resize(std::max<size_t>(3, walks.size()), walks.back());
   const World world = episode.worlds.back();
