@@ -214,7 +214,8 @@ TEST(OffsetLegs, LimitsAreFound) {
     walk.certificate.demanded.fill(verify::kNotDemanded);
     double& demanded = walk.certificate.demanded[static_cast<size_t>(family)];
     const auto check = [&] {
-      return CheckWalk(walk.tables, walk.robot, walk.scene, walk.certificate, walk.crouch);
+      return CheckWalk(WalkMotion(walk.tables), walk.robot, walk.scene, walk.certificate,
+                       walk.crouch);
     };
     demanded = least + 1e-6;
     EXPECT_FALSE(check().proved()) << column;
