@@ -118,8 +118,9 @@ std::string OutcomeOf(const Episode& episode, const LiveConfig& config, size_t k
                         Formatted(" after %.2f s, ", episode.end) + config.live.clock +
                         ", policy " + config.live.policy + "; " + PromiseSentence(episode.promise);
   if (k > 1) {
-    outcome += Formatted(", every %zuth world, walk and grant is shown, the motion every %.3g s", k,
-                         SpacingOf(k, config));
+    outcome +=
+        Formatted("; of worlds, walks and grants one in %zu is shown, the motion every %.3g s", k,
+                  SpacingOf(k, config));
   }
   return outcome;
 }
