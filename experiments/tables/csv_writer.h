@@ -32,12 +32,8 @@ class CsvWriter {
   void EndRow();
 
   const std::string& text() const { return text_; }  ///< header and rows so far
-  /// The same, which is then forgotten.
-  std::string TakeText() {
-    std::string text;
-    text.swap(text_);
-    return text;
-  }
+  /// Forgets them: what is written from now on goes on from there.
+  void ForgetText() { text_.clear(); }
   /// The table, whole.
   CsvFile file() const { return {columns_, text_}; }
 

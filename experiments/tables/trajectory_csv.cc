@@ -115,9 +115,11 @@ void WriteTrajectory(const SuperposedWalk& walk, double end, double period,
       const MarginEvaluator& evaluator = evaluator_at(t);
       MarginEvaluator::Scratch scratch = evaluator.MakeScratch();
       WriteRow(evaluator, walk, t, evaluator.At(walk, walk.Locate(t), &scratch), &csv);
-      if (csv.text().size() > kMostKept) add(csv.TakeText());
+      if (csv.text().size() <= kMostKept) continue;
+      add(csv.text());
+      csv.ForgetText();
     }
-    add(csv.TakeText());
+    add(csv.text());
   });
   folder->Write("trajectory.schema.json", SchemaJson(columns));
 }
