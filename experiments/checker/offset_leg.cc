@@ -128,14 +128,17 @@ Angles Lifted(const Leg& leg, const Given<Curve>& given, double h, const Interva
   const Given<Curve> middle = AtOneInstant(given, false), anywhere = AtOneInstant(given, true);
   Angles at, path, jets;
   for (size_t i = 0; i < 6; ++i) at[i] = q[i].Middle();
-  for (int k = 0; k < 6; ++k) {
+  double largest = 1.0;  // of the last step
+  for (int k = 0; k < 8 && largest > 1e-12; ++k) {
     std::array<Taylor<1>, 6> angles;
     for (size_t i = 0; i < 6; ++i) angles[i] = at[i].at[0];
     const std::array<Taylor<1>, 6> f = CutLeg<1>(leg, middle, angles).Mismatch();
     const Slopes slopes = SlopesAlong<1>(leg, middle, at, Box());
+    largest = 0.0;
     for (size_t i = 0; i < 6; ++i) {
       Interval step = 0.0;
       for (size_t j = 0; j < 6; ++j) step = step + slopes.Of(i, j) * f[j].at[0];
+      largest = std::max(largest, step.Magnitude());
       at[i] = (at[i].at[0] - step).Middle();
     }
   }
