@@ -45,6 +45,10 @@ class WalkProof {
     for (WalkStatement& statement : statements_.all()) statement.told = hints->told;
   }
 
+  // Of all instants between neighbours of these [s] can be asked then.
+  void Follow(const std::vector<double>& knots) {
+    FollowLegs(robot_, motion_, height_, knots, &solvers_);
+  }
   void Prove(double from, double to) {
     std::vector<size_t> open(findings_.size());
     for (size_t i = 0; i < open.size(); ++i) open[i] = i;
@@ -173,8 +177,9 @@ TrajectoryCheck CheckWalk(const WalkMotion& motion, const RobotModel& robot, con
   for (const double t : waypoints) {
     if (t > 0.0 && t < motion.end()) knots.push_back(t);
   }
-  std::erase_if(knots, [&](double t) { return t < from; });
   std::ranges::sort(knots);
+  proof.Follow(knots);
+  std::erase_if(knots, [&](double t) { return t < from; });
   if (!hints->told && !knots.empty()) hints->times.push_back(knots.front());
   for (size_t i = 0; i + 1 < knots.size() && !check.stopped; ++i) {
     proof.Prove(knots[i], knots[i + 1]);

@@ -69,7 +69,7 @@ LegPosture Placed(const Leg& leg, const FrameIn<Curve>& X_WB, const FrameIn<Curv
 
 LegSolver::LegSolver(const Leg& leg) : leg_(leg), X_SoleB_(FrameOf<Curve>(leg.X_BSole).Inverse()) {
   const auto& j = leg.joints;
-  if (!leg.closed_form()) offset_ = std::make_shared<const OffsetLeg>(leg, leg.met.front());
+  if (!leg.closed_form()) offset_ = std::make_shared<OffsetLeg>(leg, leg.met.front());
   const Vector axis = VectorOf(j[3].axis_B), point = VectorOf(j[3].point_B);
   hip_ = VectorOf(leg.hip_B) - point;
   ankle_ = VectorOf(leg.ankle_B) - point;
@@ -101,10 +101,16 @@ Curve LegSolver::Reach(const Curve& knee) const {
   return Curve(Sqrt(squares_ + twice)) - Sqrt(Curve(squares_) - twice * cos_psi);
 }
 
-LegPosture LegSolver::At(const FrameIn<Curve>& X_WB, const FrameIn<Curve>& carried) const {
+void LegSolver::Follow(const std::vector<double>& knots,
+                       const std::function<FrameIn<Curve>(double from, double to)>& foot) {
+  if (offset_ != nullptr) offset_->Follow(knots, foot);
+}
+
+LegPosture LegSolver::At(const FrameIn<Curve>& X_WB, const FrameIn<Curve>& carried, double from,
+                         double to) const {
   std::array<Turn, 6> turns;
   if (offset_ != nullptr) {
-    const std::array<Curve, 6> q = offset_->At(X_WB, carried);
+    const std::array<Curve, 6> q = offset_->On(from, to, X_WB.Inverse() * carried);
     for (size_t i = 0; i < 6; ++i) {
       const auto [s, c] = SinCosOf(q[i]);
       turns[i] = {s, c};

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
+#include <vector>
 
 #include "experiments/checker/taylor.h"
 #include "wpg/robot/robot_model.h"
@@ -30,13 +32,17 @@ class LegSolver {
   Curve Reach(const FrameIn<Curve>& X_WB, const FrameIn<Curve>& carried) const;
   /// The same of any leg, by its knee's angle [rad].
   Curve Reach(const Curve& knee) const;
-  /// For an upright waist and a sole that is turned by `yaw` from it and has carried the zero
-  /// posture there. Throws NotDefined where a singularity is not excluded.
-  LegPosture At(const FrameIn<Curve>& X_WB, const FrameIn<Curve>& carried) const;
+  /// Has to come before At for a leg without closed form: OffsetLeg::Follow.
+  void Follow(const std::vector<double>& knots,
+              const std::function<FrameIn<Curve>(double from, double to)>& foot);
+  /// On [from, to], for an upright waist and a sole that has carried the zero posture there. Throws
+  /// NotDefined where a singularity is not excluded.
+  LegPosture At(const FrameIn<Curve>& X_WB, const FrameIn<Curve>& carried, double from,
+                double to) const;
 
  private:
   const Leg& leg_;
-  std::shared_ptr<const OffsetLeg> offset_;  // null: it has a closed form
+  std::shared_ptr<OffsetLeg> offset_;  // null: it has a closed form
   FrameIn<Curve> X_SoleB_;
   Vector hip_, ankle_;                                     // seen from a point on the knee's axis
   Interval along_, levers_;                                // a∥ − h∥, r_h r_a

@@ -3,69 +3,48 @@
 #include <Eigen/LU>
 #include <algorithm>
 
+#include "experiments/checker/cut_leg.h"
+#include "experiments/checker/leg_motion.h"
+
 namespace halfstep::checker {
 namespace {
 
 using Box = std::array<Interval, 6>;
+using Angles = OffsetLeg::Angles;
 
-constexpr double kShortest = 1.0 / 256;  // step, as a share of the offsets
+constexpr double kShortest = 1e-6;  // part [s], or of the offsets
 
-// A function of one instant that takes what f does at m, or anywhere: what is found of it holds
-// there.
-Curve AtOneInstant(const Curve& f, bool anywhere) {
-  Curve at;
-  for (size_t k = 0; k < 3; ++k) at.at[k] = anywhere ? f.over[k] : f.at[k];
-  at.over[3] = f.over[3];
-  return at.Enclose();
-}
+// About the inverse C of the Jacobian J, and 1 − C J.
+struct Slopes {
+  Eigen::Matrix<double, 6, 6> C;
+  std::array<Box, 6> rest;
 
-template <typename To, typename Of>
-FrameIn<To> EachOf(const FrameIn<Curve>& X, const Of& of) {
-  FrameIn<To> each;
-  for (size_t i = 0; i < 3; ++i) {
-    for (size_t k = 0; k < 3; ++k) each.R[i][k] = of(X.R[i][k]);
-    each.p[i] = of(X.p[i]);
+  double Of(size_t i, size_t k) const { return C.data()[6 * k + i]; }
+};
+// Of all postures path(t) + E.
+template <int N>
+Slopes SlopesAlong(const Leg& leg, const Given<Curve>& given, const Angles& path, const Box& E) {
+  std::array<Taylor<N>, 6> q;
+  for (size_t i = 0; i < 6; ++i) q[i] = path[i].Derivative<0, N>() + Taylor<N>(E[i]);
+  const CutLeg<N> cut(leg, given, q);
+  if (!(cut.Trace().over[0].lo > 0.0)) throw NotDefined();
+  std::array<std::array<Taylor<N>, 6>, 6> J;  // columns
+  Slopes slopes;
+  for (size_t i = 0; i < 6; ++i) {
+    J[i] = cut.Slope(i);
+    for (size_t k = 0; k < 6; ++k) slopes.C.data()[6 * i + k] = J[i][k].at[0].Middle();
   }
-  return each;
-}
-
-// A posture of a leg that is cut at its knee, seen from the waist: what is above hangs on the
-// waist, what is below stands on the sole, and both say where the thigh is.
-template <typename T>
-struct CutLeg {
-  std::array<VectorIn<T>, 6> axes, points;
-  VectorIn<T> knee;    // as the part above has it; points[3]: as the part below does
-  FrameIn<T> between;  // the thigh's rotation by the one times the inverse of that by the other
-
-  template <typename Turns>  // sine and cosine of each joint
-  CutLeg(const Leg& leg, const std::array<Vector, 6>& points_B, FrameIn<T> below,
-         const Turns& turns) {
-    FrameIn<T> above;
-    const auto add = [&](size_t i, double sign, FrameIn<T>* thigh) {
-      const auto& [s, c] = turns[i];
-      const VectorIn<T> point = {points_B[i][0], points_B[i][1], points_B[i][2]};
-      axes[i] = thigh->Turned(VectorOf<T>(leg.joints[i].axis_B));
-      points[i] = *thigh * point;
-      FrameIn<T> turn = TurnAbout<T>(leg.joints[i].axis_B, sign * T(s), T(c));
-      turn.p = point - turn.Turned(point);
-      *thigh = *thigh * turn;
-    };
-    for (size_t i = 0; i < 3; ++i) add(i, 1.0, &above);
-    for (size_t i = 6; i-- > 3;) add(i, -1.0, &below);
-    knee = above * VectorIn<T>{points_B[3][0], points_B[3][1], points_B[3][2]};
-    for (size_t i = 0; i < 3; ++i) {
-      for (size_t k = 0; k < 3; ++k) between.R[i][k] = Dot(above.R[i], below.R[k]);
+  slopes.C = slopes.C.inverse().eval();
+  if (!slopes.C.allFinite() || slopes.C.cwiseAbs().maxCoeff() > 1e9) throw NotDefined();
+  for (size_t i = 0; i < 6; ++i) {
+    for (size_t k = 0; k < 6; ++k) {
+      Taylor<N> rest = i == k ? 1.0 : 0.0;
+      for (size_t j = 0; j < 6; ++j) rest = rest - slopes.Of(i, j) * J[k][j];
+      slopes.rest[i][k] = rest.over[0];
     }
   }
-  T Trace() const { return between.R[0][0] + between.R[1][1] + between.R[2][2]; }
-  // Of the turn between both thighs 2 sin θ times its axis, and the way between both knees: where
-  // the trace is above −1, all is 0 only where both are one.
-  std::array<T, 6> Mismatch() const {
-    const auto& R = between.R;
-    const VectorIn<T> way = knee - points[3];
-    return {R[2][1] - R[1][2], R[0][2] - R[2][0], R[1][0] - R[0][1], way[0], way[1], way[2]};
-  }
-};
+  return slopes;
+}
 
 // a + M x.
 Box Affine(const Box& a, const std::array<Box, 6>& M, const Box& x) {
@@ -75,20 +54,13 @@ Box Affine(const Box& a, const std::array<Box, 6>& M, const Box& x) {
   }
   return sum;
 }
-Box Common(const Box& a, const Box& b) {
-  Box common;
-  for (size_t i = 0; i < 6; ++i) {
-    common[i] = {std::max(a[i].lo, b[i].lo), std::min(a[i].hi, b[i].hi)};
-  }
-  return common;
-}
 // The image of a box around what is given, where it lies in its inside: a continuous map has a
 // fixed point there.
 template <typename Map>
 Box Contracted(Box box, const Map& map) {
-  for (int round = 0; round < 12; ++round) {
+  for (int round = 0; round < 8; ++round) {
     for (Interval& x : box) {
-      const double more = 0.1 * (x.hi - x.lo) + 1e-12 * (1.0 + x.Magnitude());
+      const double more = 0.2 * (x.hi - x.lo) + 1e-12 * (1.0 + x.Magnitude());
       x = {x.lo - more, x.hi + more};
     }
     const Box image = map(box);
@@ -101,164 +73,179 @@ Box Contracted(Box box, const Map& map) {
   }
   throw NotDefined();
 }
+// K(E) = −C f(path) + (1 − C J(path + E))E, 0 in E, holds every e in E with f(path + e) = 0, and
+// there is just one where it lies in the inside of E: at every instant.
+template <int N>
+Box Around(const Leg& leg, const Given<Curve>& given, const Angles& path, Box E) {
+  for (Interval& e : E) e = Hull(e, 0.0);
+  std::array<Taylor<N>, 6> q;
+  for (size_t i = 0; i < 6; ++i) q[i] = path[i].Derivative<0, N>();
+  const std::array<Taylor<N>, 6> f = CutLeg<N>(leg, given, q).Mismatch();
+  return Contracted(E, [&](const Box& box) {
+    const Slopes slopes = SlopesAlong<N>(leg, given, path, box);
+    Box step;
+    for (size_t i = 0; i < 6; ++i) {
+      Taylor<N> sum;
+      for (size_t k = 0; k < 6; ++k) sum = sum + slopes.Of(i, k) * f[k];
+      step[i] = -sum.over[0];
+    }
+    return Affine(step, slopes.rest, box);
+  });
+}
+
+// Of f(q(t), t) = 0 the Nth derivative is J q⁽ᴺ⁾ and what it would be if q⁽ᴺ⁾ were 0. `given` is of
+// one instant.
+template <int N>
+void AddDerivative(const Leg& leg, const Given<Curve>& given, const Slopes& slopes,
+                   Angles* angles) {
+  std::array<Taylor<N>, 6> q;
+  for (size_t i = 0; i < 6; ++i) {
+    q[i] = (*angles)[i].template Derivative<0, N>();
+    q[i].over[N] = 0.0;
+    q[i].Enclose();
+  }
+  const std::array<Taylor<N>, 6> f = CutLeg<N>(leg, given, q).Mismatch();
+  Box right{};
+  for (size_t i = 0; i < 6; ++i) {
+    for (size_t k = 0; k < 6; ++k) right[i] = right[i] - slopes.Of(i, k) * f[k].over[N];
+  }
+  const auto solve = [&](const Box& y) { return Affine(right, slopes.rest, y); };
+  const Box found = solve(Contracted(right, solve));
+  for (size_t i = 0; i < 6; ++i) {
+    if constexpr (N < 3) (*angles)[i].at[N] = found[i];
+    if constexpr (N == 3) (*angles)[i].over[N] = found[i];
+  }
+}
+
+Interval ValueAt(const Curve& f, const Interval& t) {
+  const Interval half = Interval(0.5) * Square(t), sixth = half * (t / Interval(3.0));
+  return f.at[0] + t * f.at[1] + half * f.at[2] + sixth * f.over[3];
+}
+
+// The angles on m ± h that are in the box q at the time m + t: around a numerical solution.
+Angles Lifted(const Leg& leg, const Given<Curve>& given, double h, const Interval& t,
+              const Box& q) {
+  const Given<Curve> middle = AtOneInstant(given, false), anywhere = AtOneInstant(given, true);
+  Angles at, path, jets;
+  for (size_t i = 0; i < 6; ++i) at[i] = q[i].Middle();
+  double largest = 1.0;  // of the last step
+  for (int k = 0; k < 8 && largest > 1e-12; ++k) {
+    std::array<Taylor<1>, 6> angles;
+    for (size_t i = 0; i < 6; ++i) angles[i] = at[i].at[0];
+    const std::array<Taylor<1>, 6> f = CutLeg<1>(leg, middle, angles).Mismatch();
+    const Slopes slopes = SlopesAlong<1>(leg, middle, at, Box());
+    largest = 0.0;
+    for (size_t i = 0; i < 6; ++i) {
+      Interval step = 0.0;
+      for (size_t j = 0; j < 6; ++j) step = step + slopes.Of(i, j) * f[j].at[0];
+      largest = std::max(largest, step.Magnitude());
+      at[i] = (at[i].at[0] - step).Middle();
+    }
+  }
+  const Box off = Around<1>(leg, middle, at, Box());
+  const Slopes here = SlopesAlong<1>(leg, middle, at, off);
+  for (size_t i = 0; i < 6; ++i) at[i].at[0] = at[i].at[0] + off[i];
+  AddDerivative<1>(leg, middle, here, &at);
+  AddDerivative<2>(leg, middle, here, &at);
+  Box E;
+  for (size_t i = 0; i < 6; ++i) {
+    for (size_t k = 0; k < 3; ++k) path[i].at[k] = at[i].at[k].Middle();
+    path[i].h = h;
+    path[i].Enclose();
+    E[i] = Hull(q[i] - ValueAt(path[i], t), at[i].at[0] - path[i].at[0]);
+  }
+  E = Around<3>(leg, given, path, E);
+  const Slopes along = SlopesAlong<3>(leg, given, path, E);
+  for (size_t i = 0; i < 6; ++i) jets[i].at[0] = path[i].over[0] + E[i];
+  AddDerivative<1>(leg, anywhere, along, &jets);
+  AddDerivative<2>(leg, anywhere, along, &jets);
+  AddDerivative<3>(leg, anywhere, along, &jets);
+  for (size_t i = 0; i < 6; ++i) {
+    at[i].h = h;
+    at[i].over[3] = jets[i].over[3];
+    at[i].Enclose();
+  }
+  return at;
+}
+
+double HalfOf(double from, double to) {
+  return Interval(from, to).FarthestFrom(0.5 * from + 0.5 * to);
+}
+Given<Curve> Own(const Leg& leg, const FrameIn<Curve>& foot) {
+  Given<Curve> given{.points = {}, .foot = foot};
+  for (size_t i = 0; i < 6; ++i) given.points[i] = VectorOf<Curve>(leg.joints[i].point_B);
+  return given;
+}
 
 }  // namespace
 
-OffsetLeg::OffsetLeg(const Leg& leg, const Leg& met) : leg_(leg), met_leg_(met), met_(met) {}
-
-OffsetLeg::Parts OffsetLeg::PartsAt(const Interval& share, const FrameIn<Curve>& foot) const {
-  const Interval rest = Interval(1.0) - share;
-  const auto at = [&](const Eigen::Vector3d& met, const Eigen::Vector3d& own) {
-    if (share == Interval(1.0)) return VectorOf(own);
-    Vector at;
-    for (size_t i = 0; i < 3; ++i) at[i] = rest * VectorOf(met)[i] + share * VectorOf(own)[i];
-    return at;
-  };
-  Parts parts{.points = {}, .foot = foot};
-  for (size_t i = 0; i < 6; ++i) {
-    parts.points[i] = at(met_leg_.joints[i].point_B, leg_.joints[i].point_B);
-  }
-  // The frame that this sole carries, in that which the leg's own does.
-  const Vector shift = VectorOf(leg_.X_BSole.translation()) -
-                       at(met_leg_.X_BSole.translation(), leg_.X_BSole.translation());
-  parts.foot.p = foot * VectorIn<Curve>{shift[0], shift[1], shift[2]};
-  return parts;
-}
-
-// A turn about an axis a before the rotation R changes 2 sin θ by (tr R − R)a, one after it by
-// (tr R − Rᵀ)a.
-OffsetLeg::Slopes OffsetLeg::SlopesWithin(const Parts& parts, const Box& q) const {
-  std::array<SineCosineInterval, 6> turns;
-  for (size_t i = 0; i < 6; ++i) turns[i] = SinCosOf(q[i]);
-  const auto over = [](const Curve& x) { return x.over[0]; };
-  const CutLeg<Interval> at(leg_, parts.points, EachOf<Interval>(parts.foot, over), turns);
-  const Interval trace = at.Trace();
-  if (!(trace.lo > 0.0)) throw NotDefined();
-  std::array<Box, 6> J;  // columns
-  Slopes slopes;
-  for (size_t i = 0; i < 6; ++i) {
-    const Vector& a = at.axes[i];
-    const Vector turned = i < 3 ? at.between.Turned(a) : at.between.TurnedBack(a);
-    const Vector moved = Cross(a, (i < 3 ? at.knee : at.points[3]) - at.points[i]);
-    for (size_t k = 0; k < 3; ++k) {
-      J[i][k] = trace * a[k] - turned[k];
-      J[i][k + 3] = moved[k];
-    }
-    for (size_t k = 0; k < 6; ++k) slopes.inverse.data()[6 * i + k] = J[i][k].Middle();
-  }
-  slopes.inverse = slopes.inverse.inverse().eval();
-  const auto& C = slopes.inverse;
-  if (!C.allFinite() || C.cwiseAbs().maxCoeff() > 1e9) throw NotDefined();
-  for (size_t i = 0; i < 6; ++i) {
-    for (size_t k = 0; k < 6; ++k) {
-      Interval& rest = slopes.rest[i][k] = i == k ? 1.0 : 0.0;
-      for (size_t j = 0; j < 6; ++j) rest = rest - Interval(C.data()[6 * j + i]) * J[k][j];
-    }
-  }
-  return slopes;
-}
-
-// K(Q) = q − C f(q) + (1 − C J(Q))(Q − q) holds every zero of f in Q, and there is just one where
-// it lies inside of Q.
-OffsetLeg::Box OffsetLeg::Krawczyk(const Parts& parts, const Box& q) const {
-  const Slopes slopes = SlopesWithin(parts, q);
-  std::array<SineCosineInterval, 6> turns;
-  Box middle, off;
-  for (size_t i = 0; i < 6; ++i) {
-    middle[i] = q[i].Middle();
-    off[i] = q[i] - middle[i];
-    turns[i] = SinCosOf(middle[i]);
-  }
-  const auto rate = [](const Curve& x) { return x.Derivative<0, 1>(); };
-  const std::array<Taylor<1>, 6> f =
-      CutLeg<Taylor<1>>(leg_, parts.points, EachOf<Taylor<1>>(parts.foot, rate), turns).Mismatch();
-  for (size_t i = 0; i < 6; ++i) {
-    Taylor<1> step;
-    for (size_t k = 0; k < 6; ++k) step = step + slopes.inverse.data()[6 * k + i] * f[k];
-    middle[i] = middle[i] - step.over[0];
-  }
-  return Affine(middle, slopes.rest, off);
-}
-
-std::optional<OffsetLeg::Box> OffsetLeg::Continued(const FrameIn<Curve>& foot, double from,
-                                                   double to, const Box& q) const {
+template <typename Way>
+bool OffsetLeg::Extend(const Way& way, double from, double to, Box* q,
+                       std::vector<Part>* parts) const {
+  const double middle = 0.5 * from + 0.5 * to;
   try {
-    const Parts between = PartsAt({from, to}, foot);
-    const Box all = Contracted(q, [&](const Box& box) { return Krawczyk(between, box); });
-    return Common(all, Krawczyk(PartsAt(to, foot), all));
+    const Angles angles =
+        Lifted(leg_, way(from, to), HalfOf(from, to), Interval(from) - Interval(middle), *q);
+    for (size_t i = 0; i < 6; ++i) (*q)[i] = ValueAt(angles[i], Interval(to) - Interval(middle));
+    parts->push_back({from, to, angles});
+    return true;
   } catch (const NotDefined&) {
-    return std::nullopt;
   }
+  return to - from > kShortest && Extend(way, from, middle, q, parts) &&
+         Extend(way, middle, to, q, parts);
 }
 
-// Of f(q(t), t) = 0 the Nth derivative is J q⁽ᴺ⁾ and what it would be if q⁽ᴺ⁾ were 0.
-template <int N>
-void OffsetLeg::AddDerivative(const Parts& parts, const Slopes& slopes,
-                              std::array<Curve, 6>* q) const {
-  std::array<std::array<Taylor<N>, 2>, 6> turns;
-  for (size_t i = 0; i < 6; ++i) {
-    Taylor<N> angle = (*q)[i].Derivative<0, N>();
-    angle.over[N] = 0.0;
-    turns[i] = SinCosOf(angle.Enclose());
-  }
-  const auto some = [](const Curve& x) { return x.Derivative<0, N>(); };
-  const std::array<Taylor<N>, 6> f =
-      CutLeg<Taylor<N>>(leg_, parts.points, EachOf<Taylor<N>>(parts.foot, some), turns).Mismatch();
-  Box right{};
-  for (size_t i = 0; i < 6; ++i) {
-    for (size_t k = 0; k < 6; ++k) {
-      right[i] = right[i] - Interval(slopes.inverse.data()[6 * k + i]) * f[k].over[N];
-    }
-  }
-  const Box found = Contracted(right, [&](const Box& y) { return Affine(right, slopes.rest, y); });
-  for (size_t i = 0; i < 6; ++i) {
-    if constexpr (N < 3) {
-      (*q)[i].at[N] = found[i];
-    } else {
-      (*q)[i].over[N] = found[i];
-    }
-  }
-}
-
-std::array<Curve, 6> OffsetLeg::At(const FrameIn<Curve>& X_WB,
-                                   const FrameIn<Curve>& carried) const {
-  const FrameIn<Curve> foot = X_WB.Inverse() * carried;
-  const LegPosture closed = met_.At({}, PartsAt(0.0, foot).foot);
-  Box box;
-  for (size_t i = 0; i < 6; ++i) box[i] = closed.q[i].over[0];
-  for (double share = 0.0, step = 1.0; share < 1.0;) {
-    const double to = std::min(1.0, share + step);
-    if (const auto next = Continued(foot, share, to, box)) {
-      box = *next;
-      share = to;
-    } else if ((step *= 0.5) < kShortest) {
-      throw NotDefined();
-    }
-  }
-  const Parts moving = PartsAt(1.0, foot);
-  std::array<Curve, 6> q;
-  for (const bool anywhere : {true, false}) {
-    const Parts instant = PartsAt(
-        1.0, EachOf<Curve>(foot, [&](const Curve& x) { return AtOneInstant(x, anywhere); }));
-    Box here = box;
-    for (int k = 0; k < 3; ++k) here = Common(here, Krawczyk(anywhere ? moving : instant, here));
-    const Slopes slopes = SlopesWithin(instant, here);
-    std::array<Curve, 6> jets;
-    for (size_t i = 0; i < 6; ++i) jets[i].at[0] = here[i];
-    AddDerivative<1>(instant, slopes, &jets);
-    AddDerivative<2>(instant, slopes, &jets);
-    if (anywhere) AddDerivative<3>(instant, slopes, &jets);
+void OffsetLeg::Follow(const std::vector<double>& knots, const Foot& foot) {
+  parts_.clear();
+  if (knots.size() < 2) return;
+  const FrameIn<Curve> begin =
+      AtOneInstant({.points = {}, .foot = foot(knots[0], knots[0])}, true).foot;
+  const Eigen::Vector3d &own = leg_.X_BSole.translation(), &met = met_.X_BSole.translation();
+  // With a share of the offsets.
+  const auto shared = [&](double from, double to) {
+    Curve share;
+    share.h = HalfOf(from, to);
+    share.at = {0.5 * from + 0.5 * to, 1.0, 0.0};
+    share.Enclose();
+    const auto between = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+      const VectorIn<Curve> way = VectorOf<Curve>(b) - VectorOf<Curve>(a);
+      return VectorOf<Curve>(a) + VectorIn<Curve>{share * way[0], share * way[1], share * way[2]};
+    };
+    Given<Curve> given{.points = {}, .foot = begin};
     for (size_t i = 0; i < 6; ++i) {
-      if (!anywhere) q[i].at = jets[i].at;
-      if (anywhere) q[i].over[3] = jets[i].over[3];
+      given.points[i] = between(met_.joints[i].point_B, leg_.joints[i].point_B);
     }
+    // The frame that this sole carries, in that which the leg's own does.
+    given.foot.p = begin * (VectorOf<Curve>(own) - between(met, own));
+    return given;
+  };
+  Box q;
+  std::vector<Part> shares;
+  try {
+    FrameIn<Curve> carried = begin;
+    carried.p = begin * (VectorOf<Curve>(own) - VectorOf<Curve>(met));
+    const LegPosture closed = LegSolver(met_).At({}, carried, 0.0, 0.0);
+    for (size_t i = 0; i < 6; ++i) q[i] = closed.q[i].over[0];
+  } catch (const NotDefined&) {
+    return;
   }
-  for (Curve& angle : q) {
-    for (const Curve& x : foot.p) angle.h = std::max(angle.h, x.h);
-    for (const Curve& x : foot.R[0]) angle.h = std::max(angle.h, x.h);
-    angle.Enclose();
+  if (!Extend(shared, 0.0, 1.0, &q, &shares)) return;
+  const auto walked = [&](double from, double to) { return Own(leg_, foot(from, to)); };
+  for (size_t i = 0; i + 1 < knots.size(); ++i) {
+    if (!Extend(walked, knots[i], knots[i + 1], &q, &parts_)) return;
   }
-  return q;
+}
+
+OffsetLeg::Angles OffsetLeg::On(double from, double to, const FrameIn<Curve>& foot) const {
+  const auto after = std::ranges::upper_bound(parts_, from, {}, &Part::from);
+  if (after == parts_.begin()) throw NotDefined();
+  const Part& part = *std::prev(after);
+  if (to > part.to) throw NotDefined();
+  if (from == part.from && to == part.to) return part.q;
+  const Interval t = Interval(0.5 * from + 0.5 * to) - Interval(0.5 * part.from + 0.5 * part.to);
+  Box q;
+  for (size_t i = 0; i < 6; ++i) q[i] = ValueAt(part.q[i], t);
+  return Lifted(leg_, Own(leg_, foot), HalfOf(from, to), 0.0, q);
 }
 
 }  // namespace halfstep::checker

@@ -54,6 +54,8 @@ WalkState::WalkState(const RobotModel& robot, const std::array<LegSolver, 2>& so
                      const WalkMotion& motion, const Interval& waist_height, double from, double to)
     : robot_(robot),
       solvers_(solvers),
+      from_(from),
+      to_(to),
       middle_(0.5 * from + 0.5 * to),
       h_(Interval(from, to).FarthestFrom(middle_)),
       numbers_(motion.On(from, to)),
@@ -78,9 +80,18 @@ const LegPosture& WalkState::leg(size_t side) {
   if (unknown_[side]) throw NotDefined();
   if (legs_[side]) return *legs_[side];
   unknown_[side] = true;
-  legs_[side] = solvers_[side].At(X_WB_, carried_[side]);
+  legs_[side] = solvers_[side].At(X_WB_, carried_[side], from_, to_);
   unknown_[side] = false;
   return *legs_[side];
+}
+
+void FollowLegs(const RobotModel& robot, const WalkMotion& motion, const Interval& waist_height,
+                const std::vector<double>& knots, std::array<LegSolver, 2>* solvers) {
+  for (size_t side = 0; side < 2; ++side) {
+    (*solvers)[side].Follow(knots, [&](double from, double to) {
+      return WalkState(robot, *solvers, motion, waist_height, from, to).foot(side);
+    });
+  }
 }
 
 const FrameIn<Curve>& WalkState::FrameOfBody(const RobotBody& body) {

@@ -67,6 +67,8 @@ class WalkState {
   /// Whether both soles are at one height, to 10⁻¹⁰ m, as planner and margins count it.
   bool AreLevel() const { return (HeightOf(0) - HeightOf(1)).Magnitude() < 1e-10; }
 
+  /// OffsetLeg::Foot of a leg.
+  FrameIn<Curve> foot(size_t side) const { return X_WB_.Inverse() * carried_[side]; }
   const FrameIn<Curve>& sole(size_t side) const { return soles_[side]; }  ///< its frame in W
   /// Stretched leg − hip–ankle distance [m].
   Curve reach(size_t side) {
@@ -85,7 +87,7 @@ class WalkState {
  private:
   const RobotModel& robot_;
   const std::array<LegSolver, 2>& solvers_;
-  double middle_, h_;
+  double from_, to_, middle_, h_;
   WalkNumbers numbers_;
   const WalkMotion::Flight* flight_;
   FrameIn<Curve> X_WB_;
@@ -95,5 +97,11 @@ class WalkState {
   std::vector<std::optional<Vector>> centers_;
   std::optional<Dynamics> dynamics_;
 };
+
+/// Has to come before states are asked for legs without closed form: these are followed from the
+/// first of the knots [s], which hold the motion's, to the last. States' intervals have to lie
+/// between two neighbours.
+void FollowLegs(const RobotModel& robot, const WalkMotion& motion, const Interval& waist_height,
+                const std::vector<double>& knots, std::array<LegSolver, 2>* solvers);
 
 }  // namespace halfstep::checker

@@ -38,10 +38,12 @@ struct Moving {
   explicit Moving(const WalkRun& of)
       : walk(of),
         motion(of.tables),
-        solvers{LegSolver(of.robot.legs[0]), LegSolver(of.robot.legs[1])} {}
+        solvers{LegSolver(of.robot.legs[0]), LegSolver(of.robot.legs[1])} {
+    FollowLegs(of.robot, motion, Height(), motion.knots(), &solvers);
+  }
+  Interval Height() const { return Interval(walk.robot.waist_height) - Interval(walk.crouch); }
   WalkState On(double from, double to) const {
-    return {walk.robot, solvers, motion, Interval(walk.robot.waist_height) - Interval(walk.crouch),
-            from,       to};
+    return {walk.robot, solvers, motion, Height(), from, to};
   }
 
   const WalkRun& walk;
