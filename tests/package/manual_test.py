@@ -87,7 +87,7 @@ class Manual(unittest.TestCase):
             return told("zsh", "-f", "-c", "HALFSTEP=$0" + script, HALFSTEP, FOLDER / "_halfstep",
                         "halfstep", *words).splitlines()
         self.assertEqual({line.split(":")[0] for line in offered("")}, set(commands()) | {"--help", "--version"})
-        known = options(told(HALFSTEP, "replay", "--help"))
+        known = set(re.findall(r"^  (?:-\w,)?(--[a-z-]+)", told(HALFSTEP, "replay", "--help"), re.M))
         self.assertEqual(options("\n".join(line.split("[")[0] for line in offered("replay", ""))), known)
         self.assertTrue(any(line.startswith("*:configs:") for line in offered("run", "")))
 

@@ -134,7 +134,7 @@ TEST(ServedEpisode, BeginsAnewAtTheSameAddressWhereAClientAsksForIt) {
   Connection client = served.Socket();
   client.ReadUntil("walk");
   client.SendLine({{"type", "again"}});
-  EXPECT_TRUE(client.ReadUntil("end")["again"]);
+  EXPECT_EQ(client.ReadUntil("end")["again"], true);
   EXPECT_TRUE(client.ReadLine().is_null());
   Connection next = served.SocketOfTheNext();
   EXPECT_EQ(next.ReadUntil("walk")["walk"], 0);

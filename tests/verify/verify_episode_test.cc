@@ -332,8 +332,8 @@ TEST(VerifyEpisode, AcceptsWhatLiveWrites) {
   const TamperedEpisode episode;
   const Outcome outcome = episode.Verify();
   EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
-  EXPECT_THAT(outcome.out,
-              HasSubstr("\n  verified, but not where its error and speed allow, on which the promise rests, was "));
+  EXPECT_THAT(outcome.out, HasSubstr("\n  verified, but not where its error and speed allow, on "
+                                     "which the promise rests, was "));
   EXPECT_THAT(outcome.out, testing::Not(HasSubstr("0 contradict")));
   EXPECT_GT(TableOf(episode.folder() / "plans.csv").size(), 2u);
   EXPECT_THAT(outcome.out, HasSubstr("stop branches keep every margin"));

@@ -62,8 +62,9 @@ TEST(VerifyPromise, ATouchIsToldByEverythingAndNoRecordMayHideIt) {
   const Outcome verified = Halfstep(touched.place.path(), {"verify", "one"});
   EXPECT_EQ(verified.status, kSuccess) << verified.out << verified.err;
   EXPECT_THAT(verified.out,
-              testing::ContainsRegex("verified .*, but not where its error and speed allow, .*'crate' \\(from "
-                                     ".*; the robot touched 'crate'"));
+              testing::ContainsRegex(
+                  "verified .*, but not where its error and speed allow, .*'crate' \\(from "
+                  ".*; the robot touched 'crate'"));
 
   const auto refused = [&](const std::string& reason, const std::function<void(Json*)>& change) {
     const Outcome outcome = touched.With(change);

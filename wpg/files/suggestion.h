@@ -5,8 +5,8 @@
 
 namespace halfstep {
 
-/// "did you mean 'x'? " for the choice that differs from a word in capitals only, or is WORD.yaml or
-/// ends with "/WORD"; else for the one that is nearest (NearestWord); "" when none is.
+/// "did you mean 'x'? " for the choice that differs from a word in capitals only, or is WORD.yaml
+/// or ends with "/WORD"; else for the one that is nearest (NearestWord); "" when none is.
 std::string DidYouMean(const std::string& word, const std::vector<std::string>& choices);
 
 /// "did you mean 'runs/x'? " for the folder `x` that a run has below `runs`; "" when there is none.
