@@ -83,22 +83,20 @@ Vector6d AccelerationRounding(const IntervalMotion& motion, const RobotDynamics&
       std::abs(jet.first[yaw]) * sole1_off + off.first[yaw] * (foot1.norm() + sole1_off) +
       waist.acceleration + arm * waist.spin1 + waist.spin * v +
       (waist.velocity + arm * waist.spin) * w +
-      2.0 * (waist.turn * (hung1.tail<3>().norm() + rate * v + moved * w) +
-             place * (w1 + rate * w)) +
+      2.0 *
+          (waist.turn * (hung1.tail<3>().norm() + rate * v + moved * w) + place * (w1 + rate * w)) +
       9.0 * leg.placed * all + 3.0 * leg.placed_turn * moved * speeds +
       128.0 * kRoundoff * (all * size + carried + moved * speeds) + leg.chain * beyond +
       64.0 * moved * (bent2 * speeds + leg.turn * bent1);
   const LegRounding::OfSole &pose = leg.pose, &twist = leg.twist;
   const double y = Y.norm(), pose_size = pose.turn + pose.place;
-  const double sums =
-      64.0 * kRoundoff * y *
-      (by_speed.norm() * (twist.turn + twist.place + y * H.norm() * pose_size) +
-       by_angle.norm() * pose_size);
-  const Vector6d asked = RowsTimes(Y, turn, along) +
-                         RowsTimes(of_speeds * Y, twist.turn, twist.place) +
-                         RowsTimes(of_angles * Y, pose.turn, pose.place) +
-                         of_speeds.cwiseAbs() * twist.rest + of_angles.cwiseAbs() * pose.rest +
-                         sums * Y.rowwise().norm();
+  const double sums = 64.0 * kRoundoff * y *
+                      (by_speed.norm() * (twist.turn + twist.place + y * H.norm() * pose_size) +
+                       by_angle.norm() * pose_size);
+  const Vector6d asked =
+      RowsTimes(Y, turn, along) + RowsTimes(of_speeds * Y, twist.turn, twist.place) +
+      RowsTimes(of_angles * Y, pose.turn, pose.place) + of_speeds.cwiseAbs() * twist.rest +
+      of_angles.cwiseAbs() * pose.rest + sums * Y.rowwise().norm();
   return ResolvedRounding(asked, leg.of_inverse);
 }
 

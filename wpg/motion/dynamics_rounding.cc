@@ -76,7 +76,8 @@ BodyRounding OfSole(Side side, const IntervalMotion& motion, const RobotDynamics
   const Eigen::Isometry3d &placed = motion.posture.X_WLink[s][6], &X = motion.posture.X_WSole[s];
   const Vector3d sole = X.translation() - at_m.O();
   const Vector3d foot1 = jet.first.segment<3>(foot), foot2 = jet.second.segment<3>(foot);
-  const double arm = sole.norm(), speed = foot1.norm(), speed_off = off.first.segment<3>(foot).sum();
+  const double arm = sole.norm(), speed = foot1.norm(),
+               speed_off = off.first.segment<3>(foot).sum();
   const double rate = std::abs(jet.first[yaw]), rate1 = std::abs(jet.second[yaw]);
   const double place_off = off.value.segment<3>(foot).sum() + 4.0 * kRoundoff * arm;
   const Vector6d missing =

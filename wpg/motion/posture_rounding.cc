@@ -131,7 +131,7 @@ LegRounding RoundingOfPostures::OfLeg(Side side, const WalkJet& jet, const WalkJ
   const double of_axes = placing.turn + 4.0 * kU,
                of_points = 3.0 * placing.place + 8.0 * kU * chain;
   const Vector6d left = (Matrix6d::Identity() - Y * J).cwiseAbs().rowwise().sum() +
-                        64.0 * kU * (Y.cwiseAbs() * J.cwiseAbs()).rowwise().sum() +
+                        64.0 * kU * (Y.cwiseAbs() * J.cwiseAbs().rowwise().sum()) +
                         6.0 * rows.Of(of_axes, of_points);
   LegRounding rounding;
   rounding.pose = {.turn = turn, .place = place};

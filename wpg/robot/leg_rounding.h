@@ -10,7 +10,7 @@ struct LegRounding {
   /// What the sole's pose or twist, seen from the waist, may differ by at the computed angles and
   /// speeds: norms of both halves. Joints then differ by Y times that, and at most `rest`.
   struct OfSole {
-    double turn = 0.0, place = 0.0;     ///< [rad], [m]; of the twist [rad/s], [m/s]
+    double turn = 0.0, place = 0.0;    ///< [rad], [m]; of the twist [rad/s], [m/s]
     Vector6d rest = Vector6d::Zero();  ///< of each joint [rad] or [rad/s]
   };
   Vector6d q = Vector6d::Zero();       ///< of each joint angle [rad]
