@@ -19,7 +19,8 @@ constexpr double kSupportStep = 1e-3;    // of the offsets that are tried [m]
 
 }  // namespace
 
-double LeastInSixSteps(const RobotModel& robot, MarginFamily family, double period) {
+double LeastInSixSteps(const RobotModel& robot, MarginFamily family, double period,
+                       bool everywhere) {
   const HalfStepSequence sequence = SixSteps(robot, DefaultHalfStep(robot));
   const SuperposedWalk walk(sequence, PlannedMotion(sequence));
   const MarginEvaluator evaluator(robot, Scene{}, DefaultLimits(robot));
@@ -27,6 +28,7 @@ double LeastInSixSteps(const RobotModel& robot, MarginFamily family, double peri
   double least = std::numeric_limits<double>::infinity();
   for (double t = 0.0; t < walk.duration(); t += period) {
     Instant at(evaluator.place(), evaluator.limits(), walk, walk.Locate(t), &scratch);
+    if (!everywhere && !at.regular()) continue;
     least = std::min(least, evaluator.statements(family).Least(&at, least).value);
   }
   return least;

@@ -6,8 +6,10 @@
 namespace halfstep {
 
 /// The least margin of a family in the six steps that a robot would take by default (SixSteps), in
-/// the family's unit, looked at every `period` [s]. For guesses: nothing is proved by it.
-double LeastInSixSteps(const RobotModel& robot, MarginFamily family, double period);
+/// the family's unit, looked at every `period` [s]. For guesses: nothing is proved by it. Instants
+/// at which a leg does not reach count only if asked for `everywhere`.
+double LeastInSixSteps(const RobotModel& robot, MarginFamily family, double period,
+                       bool everywhere = true);
 
 /// Where in the support sole CoM and ZMP shall rest on one foot, and what was missed elsewhere.
 struct FoundSupport {

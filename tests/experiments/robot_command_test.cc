@@ -170,12 +170,12 @@ TEST(RobotSurvey, SaysFirstWhatKeepsARobotFromBeingOfTheClass) {
               HasSubstr("has 5 moving joints"));
   EXPECT_THAT(UrdfRefusal(std::regex_replace(good, std::regex("joint5' type='revolute'"),
                                              "joint5' type='prismatic'")),
-              HasSubstr("the foot cannot be put everywhere; left_joint5 on it slides"));
+              HasSubstr("_joint5 on it slides (valid: 6 that turn)"));
   // An ankle that turns one way only.
   const std::regex ankle("('left_joint4'[^]*?<limit lower=')[^']*(' upper=')[^']*");
-  const std::string stiff = UrdfRefusal(std::regex_replace(good, ankle, "$012.9$023"));
+  const std::string stiff = UrdfRefusal(std::regex_replace(good, ankle, "$011.4$021.5"));
   EXPECT_THAT(stiff, HasSubstr("within the joints' limits: left_joint4 would be at "));
-  EXPECT_THAT(stiff, HasSubstr("its limits are 166.2 and 171.9 deg (valid: "));
+  EXPECT_THAT(stiff, HasSubstr("its limits are 80.2 and 85.9 deg (valid: "));
   // What is wrong with a finger is told later, and as a warning.
   const std::string finger =
       "<link name='finger'/><joint name='grip' type='revolute'><parent link='waist'/>"
@@ -209,7 +209,7 @@ TEST(RobotSurvey, WritesTurnedFramesThatReadBack) {
   int frames = 0;
   for (int x = 0; x < 6; ++x) {
     for (int y = 0; y < 6; ++y) {
-      if (x % 3 == y % 3 || x + y == 0) continue;
+      if (x % 3 == y % 3) continue;
       draft.R_LinkB.col(0) = (x < 3 ? 1 : -1) * Eigen::Vector3d::Unit(x % 3);
       draft.R_LinkB.col(1) = (y < 3 ? 1 : -1) * Eigen::Vector3d::Unit(y % 3);
       draft.R_LinkB.col(2) = draft.R_LinkB.col(0).cross(draft.R_LinkB.col(1));
