@@ -28,7 +28,8 @@ footsteps:
 }
 
 bool IsProved(const WalkRun& walk) {
-  return CheckWalk(walk.tables, walk.robot, walk.scene, walk.certificate, walk.crouch).proved();
+  return CheckWalk(WalkMotion(walk.tables), walk.robot, walk.scene, walk.certificate, walk.crouch)
+      .proved();
 }
 
 TEST(TubeLoss, WalksInATubeAreProved) {
