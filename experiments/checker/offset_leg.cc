@@ -11,6 +11,7 @@ namespace {
 
 using Box = std::array<Interval, 6>;
 using Angles = OffsetLeg::Angles;
+using Lift = OffsetLeg::Lift;
 
 constexpr double kShortest = 1e-6;  // part [s], or of the offsets
 
@@ -122,11 +123,21 @@ Interval ValueAt(const Curve& f, const Interval& t) {
   return f.at[0] + t * f.at[1] + half * f.at[2] + sixth * f.over[3];
 }
 
+Box ValuesAt(const Lift& lift, const Interval& t) {
+  Box q;
+  for (size_t i = 0; i < 6; ++i) {
+    const Interval a = ValueAt(lift.q[i], t), b = ValueAt(lift.path[i], t) + lift.E[i];
+    q[i] = {std::max(a.lo, b.lo), std::min(a.hi, b.hi)};
+  }
+  return q;
+}
+
 // The angles on m ± h that are in the box q at the time m + t: around a numerical solution.
-Angles Lifted(const Leg& leg, const Given<Curve>& given, double h, const Interval& t,
-              const Box& q) {
+Lift Lifted(const Leg& leg, const Given<Curve>& given, double h, const Interval& t, const Box& q) {
   const Given<Curve> middle = AtOneInstant(given, false), anywhere = AtOneInstant(given, true);
-  Angles at, path, jets;
+  Lift lift;
+  auto& [at, path, E] = lift;
+  Angles jets;
   for (size_t i = 0; i < 6; ++i) at[i] = q[i].Middle();
   double largest = 1.0;  // of the last step
   for (int k = 0; k < 8 && largest > 1e-12; ++k) {
@@ -147,7 +158,6 @@ Angles Lifted(const Leg& leg, const Given<Curve>& given, double h, const Interva
   for (size_t i = 0; i < 6; ++i) at[i].at[0] = at[i].at[0] + off[i];
   AddDerivative<1>(leg, middle, here, &at);
   AddDerivative<2>(leg, middle, here, &at);
-  Box E;
   for (size_t i = 0; i < 6; ++i) {
     for (size_t k = 0; k < 3; ++k) path[i].at[k] = at[i].at[k].Middle();
     path[i].h = h;
@@ -165,7 +175,7 @@ Angles Lifted(const Leg& leg, const Given<Curve>& given, double h, const Interva
     at[i].over[3] = jets[i].over[3];
     at[i].Enclose();
   }
-  return at;
+  return lift;
 }
 
 double HalfOf(double from, double to) {
@@ -184,10 +194,10 @@ bool OffsetLeg::Extend(const Way& way, double from, double to, Box* q,
                        std::vector<Part>* parts) const {
   const double middle = 0.5 * from + 0.5 * to;
   try {
-    const Angles angles =
+    const Lift lift =
         Lifted(leg_, way(from, to), HalfOf(from, to), Interval(from) - Interval(middle), *q);
-    for (size_t i = 0; i < 6; ++i) (*q)[i] = ValueAt(angles[i], Interval(to) - Interval(middle));
-    parts->push_back({from, to, angles});
+    *q = ValuesAt(lift, Interval(to) - Interval(middle));
+    parts->push_back({from, to, lift});
     return true;
   } catch (const NotDefined&) {
   }
@@ -241,11 +251,9 @@ OffsetLeg::Angles OffsetLeg::On(double from, double to, const FrameIn<Curve>& fo
   if (after == parts_.begin()) throw NotDefined();
   const Part& part = *std::prev(after);
   if (to > part.to) throw NotDefined();
-  if (from == part.from && to == part.to) return part.q;
+  if (from == part.from && to == part.to) return part.lift.q;
   const Interval t = Interval(0.5 * from + 0.5 * to) - Interval(0.5 * part.from + 0.5 * part.to);
-  Box q;
-  for (size_t i = 0; i < 6; ++i) q[i] = ValueAt(part.q[i], t);
-  return Lifted(leg_, Own(leg_, foot), HalfOf(from, to), 0.0, q);
+  return Lifted(leg_, Own(leg_, foot), HalfOf(from, to), 0.0, ValuesAt(part.lift, t)).q;
 }
 
 }  // namespace halfstep::checker

@@ -17,6 +17,11 @@ namespace halfstep::checker {
 class OffsetLeg {
  public:
   using Angles = std::array<Curve, 6>;  ///< [rad]
+  /// Angles on an interval, which are also within E of a path at every instant.
+  struct Lift {
+    Angles q, path;
+    std::array<Interval, 6> E;  ///< [rad]
+  };
   /// The frame, seen from the waist, where the waist was at q = 0, carried by the sole, on [from,
   /// to]; both in seconds.
   using Foot = std::function<FrameIn<Curve>(double from, double to)>;
@@ -35,7 +40,7 @@ class OffsetLeg {
  private:
   struct Part {
     double from, to;  // [s], or of the offsets
-    Angles q;
+    Lift lift;
   };
   template <typename Way>
   bool Extend(const Way& way, double from, double to, std::array<Interval, 6>* q,
