@@ -10,6 +10,7 @@
 #include <boost/asio/local/stream_protocol.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
+#include <charconv>
 #include <chrono>
 #include <cstring>
 #include <exception>
@@ -67,7 +68,8 @@ struct Server::State {
     std::string token;
     const std::regex place_of("http://127\\.0\\.0\\.1:([0-9]+)/([0-9a-f]+)/");
     if (std::smatch match; std::regex_match(before, match, place_of)) {
-      port = std::stoi(match[1]);
+      const std::string digits = match[1];
+      std::from_chars(digits.data(), digits.data() + digits.size(), port);
       token = match[2];
     }
     error_code error;
