@@ -196,7 +196,10 @@ bool OffsetLeg::Extend(const Way& way, double from, double to, Box* q,
   try {
     const Lift lift =
         Lifted(leg_, way(from, to), HalfOf(from, to), Interval(from) - Interval(middle), *q);
-    *q = ValuesAt(lift, Interval(to) - Interval(middle));
+    // Made narrow where it ends, so that the next one contracts.
+    const Lift end = Lifted(leg_, way(to, to), HalfOf(to, to), 0.0,
+                            ValuesAt(lift, Interval(to) - Interval(middle)));
+    for (size_t i = 0; i < 6; ++i) (*q)[i] = end.q[i].at[0];
     parts->push_back({from, to, lift});
     return true;
   } catch (const NotDefined&) {
