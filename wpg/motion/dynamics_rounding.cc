@@ -88,11 +88,11 @@ BodyRounding OfSole(Side side, const IntervalMotion& motion, const RobotDynamics
   BodyRounding body;
   body.turn = 0.75 * (placed.linear() - X.linear()).norm() + off.value[yaw] + 24.0 * kRoundoff;
   body.place = (placed.translation() - X.translation()).norm() + place_off;
-  body.spin = missing.head<3>().norm() + off.first[yaw];
+  body.spin = missing.head<3>().norm() + off.first[yaw] + 16.0 * kRoundoff * rate;
   body.velocity = missing.tail<3>().norm() + speed_off +
                   Product(rate, off.first[yaw], arm, place_off) +
                   16.0 * kRoundoff * (speed + rate * arm);
-  body.spin1 = missing1.head<3>().norm() + off.second[yaw];
+  body.spin1 = missing1.head<3>().norm() + off.second[yaw] + 16.0 * kRoundoff * rate1;
   body.acceleration = missing1.tail<3>().norm() + off.second.segment<3>(foot).sum() +
                       Product(rate1, off.second[yaw], arm, place_off) +
                       Product(rate, off.first[yaw], speed, speed_off) +
