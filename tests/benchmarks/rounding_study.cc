@@ -28,7 +28,7 @@ bool Print(const std::string& title, const RoundingTally& tally) {
 int main(int argc, char** argv) {
   using namespace halfstep::oracle;
   const long draws = argc > 1 ? std::stol(argv[1]) : 1'000'000;
-  const std::string robots = InSources("wpg/robots/");
+  const std::string robots = halfstep::InSources("wpg/robots/");
   std::printf("%-14s %-20s %9s %8s   %s\n", "of", "quantity", "draws", "unbounded", "bound/error");
   bool kept = true;
   RoundingTally tally;

@@ -184,7 +184,7 @@ TEST(WalksOnLevels, AreTheSameRaisedOrMirrored) {
             const double size = 1.0 + std::abs(claim->margin.value);
             EXPECT_NEAR(claim->margin.value, there->margin.value, 1e-8 * size) << Name(family);
             // What rounding does goes by how high the floor is.
-            EXPECT_NEAR(claim->bound, there->bound, 1e-5 * (size + claim->bound)) << Name(family);
+            EXPECT_NEAR(claim->bound, there->bound, 1e-7 * (size + claim->bound)) << Name(family);
           }
         }
       });

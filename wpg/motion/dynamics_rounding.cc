@@ -85,18 +85,20 @@ BodyRounding OfSole(Side side, const IntervalMotion& motion, const RobotDynamics
   Vector6d missing1 = UprightAcceleration(sole, foot1, foot2, jet.first[yaw], jet.second[yaw]) -
                       at_m.leg(side)[5].acceleration;
   missing1[5] += gravity;
+  const BodySizes at(at_m.leg(side)[5]);
   BodyRounding body;
   body.turn = 0.75 * (placed.linear() - X.linear()).norm() + off.value[yaw] + 24.0 * kRoundoff;
   body.place = (placed.translation() - X.translation()).norm() + place_off;
-  body.spin = missing.head<3>().norm() + off.first[yaw];
+  body.spin = missing.head<3>().norm() + off.first[yaw] + 16.0 * kRoundoff * (rate + at.spin);
   body.velocity = missing.tail<3>().norm() + speed_off +
                   Product(rate, off.first[yaw], arm, place_off) +
-                  16.0 * kRoundoff * (speed + rate * arm);
-  body.spin1 = missing1.head<3>().norm() + off.second[yaw];
-  body.acceleration = missing1.tail<3>().norm() + off.second.segment<3>(foot).sum() +
-                      Product(rate1, off.second[yaw], arm, place_off) +
-                      Product(rate, off.first[yaw], speed, speed_off) +
-                      32.0 * kRoundoff * (foot2.norm() + gravity + rate1 * arm + rate * speed);
+                  16.0 * kRoundoff * (speed + rate * arm + at.velocity);
+  body.spin1 = missing1.head<3>().norm() + off.second[yaw] + 16.0 * kRoundoff * (rate1 + at.spin1);
+  body.acceleration =
+      missing1.tail<3>().norm() + off.second.segment<3>(foot).sum() +
+      Product(rate1, off.second[yaw], arm, place_off) +
+      Product(rate, off.first[yaw], speed, speed_off) +
+      32.0 * kRoundoff * (foot2.norm() + gravity + rate1 * arm + rate * speed + at.acceleration);
   return body;
 }
 
