@@ -29,7 +29,7 @@ constexpr double kTorquePeriod = 0.002;  // [s]
 constexpr int kParts = 8;                // of a mesh whose hull touches what it should not
 
 // The least margin of a leg joint's torque in six steps, sampled [N m]; +∞ where nothing is known
-// of torques. Whether legs reach is no question of torques: six steps go lower where they do not.
+// of torques. Instants at which a leg does not reach say nothing of them.
 double LeastTorqueMargin(const RobotModel& robot) {
   if (!TorqueFault(robot).empty()) return std::numeric_limits<double>::infinity();
   return LeastInSixSteps(robot, MarginFamily::kTorque, kTorquePeriod, false);

@@ -116,7 +116,7 @@ TEST(CheckCommand, TellsHowToIgnorePairs) {
   WriteText(place / "arm.urdf", ArmText());
   WriteText(place / "arm.csv", "t_s,shoulder\r\n0,-1\r\n2,1\r\n");
   std::vector<std::string> words = {"check",    "arm.csv",          "--robot",
-                                    "arm.urdf", "--self-clearance", "5"};
+                                    "arm.urdf", "--self-clearance", "1"};
   const Outcome missed = Halfstep(place.path(), words);
   EXPECT_EQ(missed.status, kFailed) << missed.err;
   const std::string begin = "  if these links meet by design: ";
