@@ -10,9 +10,10 @@ namespace halfstep::checker {
 /// What a leg is given: a point of each axis at q = 0, and the foot (OffsetLeg::Foot).
 template <typename T>
 struct Given {
-  std::array<VectorIn<T>, 6> points;
-  FrameIn<T> foot;
+  std::array<VectorIn<T>, 6> points;  ///< [m]
+  FrameIn<T> foot;                    ///< seen from the waist
 
+  /// The same with of(x) for each number x.
   template <typename To, typename Of>
   Given<To> Each(const Of& of) const {
     Given<To> each;
@@ -42,11 +43,14 @@ inline Given<Curve> AtOneInstant(const Given<Curve>& given, bool anywhere) {
 /// waist, what is below stands on the sole, and both say where the thigh is.
 template <int N>
 struct CutLeg {
-  using T = Taylor<N>;
-  std::array<VectorIn<T>, 6> axes, points;
-  VectorIn<T> knee;    // as the part above has it; points[3]: as the part below does
-  FrameIn<T> between;  // the thigh's rotation by the one times the inverse of that by the other
+  using T = Taylor<N>;              ///< numbers that are functions of time
+  std::array<VectorIn<T>, 6> axes;  ///< of the joints, of length 1
+  std::array<VectorIn<T>, 6>
+      points;          ///< one of each axis [m]; of the knee as the part below has it
+  VectorIn<T> knee;    ///< as the part above has it [m]
+  FrameIn<T> between;  ///< the thigh's rotation by the part above times the inverse of the other's
 
+  /// At joint angles q [rad].
   CutLeg(const Leg& leg, const Given<Curve>& of, const std::array<T, 6>& q) {
     const Given<T> given = of.Each<T>([](const Curve& f) { return f.template Derivative<0, N>(); });
     FrameIn<T> above, below = given.foot;
@@ -65,16 +69,17 @@ struct CutLeg {
       for (size_t k = 0; k < 3; ++k) between.R[i][k] = Dot(above.R[i], below.R[k]);
     }
   }
+  /// Of `between`; where it is above −1, f = 0 only where both thighs are one.
   T Trace() const { return between.R[0][0] + between.R[1][1] + between.R[2][2]; }
-  // f: of the turn between both thighs 2 sin θ times its axis, and the way between both knees.
-  // Where the trace is above −1, f = 0 only where both thighs are one.
+  /// f (6): of the turn between both thighs 2 sin θ times its axis, and the way between both knees
+  /// [m].
   std::array<T, 6> Mismatch() const {
     const auto& R = between.R;
     const VectorIn<T> way = knee - points[3];
     return {R[2][1] - R[1][2], R[0][2] - R[2][0], R[1][0] - R[0][1], way[0], way[1], way[2]};
   }
-  // Of f by joint i. A turn about an axis a before the rotation R changes 2 sin θ by (tr R − R)a,
-  // one after it by (tr R − Rᵀ)a.
+  /// Of f by joint i (6). A turn about an axis a before the rotation R changes 2 sin θ times its
+  /// axis by (tr R − R)a, one after it by (tr R − Rᵀ)a.
   std::array<T, 6> Slope(size_t i) const {
     const VectorIn<T>& a = axes[i];
     const VectorIn<T> turned = i < 3 ? between.Turned(a) : between.TurnedBack(a);

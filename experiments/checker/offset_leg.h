@@ -19,7 +19,8 @@ class OffsetLeg {
   using Angles = std::array<Curve, 6>;  ///< [rad]
   /// Angles on an interval, which are also within E of a path at every instant.
   struct Lift {
-    Angles q, path;
+    Angles q;                   ///< [rad]
+    Angles path;                ///< [rad]
     std::array<Interval, 6> E;  ///< [rad]
   };
   /// The frame, seen from the waist, where the waist was at q = 0, carried by the sole, on [from,

@@ -17,7 +17,8 @@ struct CompletedOption {
 
 /// A command as a shell completes it.
 struct CompletedCommand {
-  std::string name, meaning;
+  std::string name;                      ///< "run"
+  std::string meaning;                   ///< the first line of what -h says
   std::vector<CompletedOption> options;  ///< and arguments
 };
 
