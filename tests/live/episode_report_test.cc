@@ -218,7 +218,8 @@ TEST_F(EpisodeReportTest, FootstepsOfARecordedWalkFollowThoseOfTheOneBefore) {
       testing::ContainsRegex(
           "of worlds, walks and grants one in [0-9]+ is shown, the motion every [0-9.]+ s"));
   std::string last;
-  for (const json& event : ByType(DataOf(page)["messages"])["event"]) {
+  messages = ByType(DataOf(page)["messages"]);
+  for (const json& event : messages["event"]) {
     last += event["event"].get<std::string>() + " ";
   }
   EXPECT_TRUE(last.ends_with("unsafe handed_over stopped ")) << last;
