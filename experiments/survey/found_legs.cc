@@ -104,8 +104,7 @@ void AskForSixJoints(const UrdfTree& urdf, const Limbs& legs) {
   }
   if (a.size() < kJoints) {
     Refuse(urdf, "a leg of it has " + JointsInWords(urdf, a) +
-                     ", so the foot cannot be put everywhere" + SlidingOn(urdf, a) +
-                     " (valid: 6)");
+                     ", so the foot cannot be put everywhere" + SlidingOn(urdf, a) + " (valid: 6)");
   }
   if (a.size() == kJoints) return;
   for (const std::vector<int>& joints : legs.joints) {

@@ -257,33 +257,14 @@ TEST(CheckWalk, IntervalsHoldWhatIsWithin) {
 
 // Demands just above what is kept at some row are not proved, those a little below are.
 TEST(CheckWalk, LimitsAreFound) {
-  struct Family {
-    verify::Family family;
-    const char* column;
-    double room;  // below the least of all rows
-  };
-  for (const auto& [family, column, room] :
-       {Family{verify::kZmp, "zmp_margin_m", 2e-4},
-        {verify::kClearance, "clearance_m", 1e-3},
-        {verify::kJointSpeed, "joint_speed_margin_rad_s", 2e-2},
-        {verify::kSelfClearance, "self_clearance_m", 2e-4},
-        {verify::kZmpRobot, "zmp_robot_margin_m", 4e-4},
-        {verify::kTorque, "torque_margin_n_m", 0.1},
-        {verify::kFriction, "friction_margin", 1e-2}}) {
-    const Rows rows(Wren());
-    double least = std::numeric_limits<double>::infinity();
-    for (size_t i = 0; i < rows.size(); ++i) least = std::min(least, rows.At(i, column));
-    WalkRun walk = Wren().walk;
-    walk.certificate.demanded.fill(verify::kNotDemanded);
-    double& demanded = walk.certificate.demanded[static_cast<size_t>(family)];
-    const auto check = [&] {
-      return CheckWalk(WalkMotion(walk.tables), walk.robot, walk.scene, walk.certificate,
-                       walk.crouch);
-    };
-    demanded = least + 1e-6;
-    EXPECT_FALSE(check().proved()) << column;
-    demanded = least - room;
-    EXPECT_TRUE(check().proved()) << column;
+  for (const FoundLimit& limit : {FoundLimit{verify::kZmp, "zmp_margin_m", 2e-4},
+                                  {verify::kClearance, "clearance_m", 1e-3},
+                                  {verify::kJointSpeed, "joint_speed_margin_rad_s", 2e-2},
+                                  {verify::kSelfClearance, "self_clearance_m", 2e-4},
+                                  {verify::kZmpRobot, "zmp_robot_margin_m", 4e-4},
+                                  {verify::kTorque, "torque_margin_n_m", 0.1},
+                                  {verify::kFriction, "friction_margin", 1e-2}}) {
+    ExpectFound(Wren(), limit);
   }
 }
 

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -89,5 +92,25 @@ class Rows {
   std::vector<std::string> header_;
   std::optional<verify::CsvText> table_;
 };
+
+/// The least of a family in all rows is found: what is demanded 10⁻⁶ above it is not proved, what
+/// is demanded `room` below it is.
+struct FoundLimit {
+  verify::Family family;
+  const char* column;
+  double room;
+};
+inline void ExpectFound(const MadeRun& run, const FoundLimit& limit) {
+  const Rows rows(run);
+  double least = std::numeric_limits<double>::infinity();
+  for (size_t i = 0; i < rows.size(); ++i) least = std::min(least, rows.At(i, limit.column));
+  WalkRun walk = run.walk;
+  walk.certificate.demanded.fill(verify::kNotDemanded);
+  double& demanded = walk.certificate.demanded[static_cast<size_t>(limit.family)];
+  demanded = least + 1e-6;
+  EXPECT_FALSE(CheckRun(walk).proved()) << limit.column;
+  demanded = least - limit.room;
+  EXPECT_TRUE(CheckRun(walk).proved()) << limit.column;
+}
 
 }  // namespace halfstep::checker

@@ -251,8 +251,8 @@ TEST(ReplayCommandControllers, AProgramAddsItsOwnAndMistakesAreTold) {
   command.run = run;
   command.method = "raw";
   command.quiet = true;
-  command.simulated.controllers.Add("mine",
-                          [](const ControlledRobot&) { return std::make_unique<PlanItself>(); });
+  command.simulated.controllers.Add(
+      "mine", [](const ControlledRobot&) { return std::make_unique<PlanItself>(); });
   EXPECT_THROW(command.simulated.controllers.Add("mine", {}), std::logic_error);
   const auto refused = [&command] { Replay(command); };
   command.simulated.sensor_delay = 0.01;
