@@ -46,14 +46,15 @@ BodyRounding OfWaist(const RobotModel& robot, const IntervalMotion& motion,
   const BodySizes at(at_m.waist());
   const double height = std::abs(motion.posture.X_WB.translation().z());
   const double speed = motion.posture.waist_velocity.norm(),
-               speed_off = motion.rounding.waist_speed;
+               speed_off = motion.rounding.origin_speed;
   const double rate = std::abs(jet.first[kWaistYaw]), rate1 = std::abs(jet.second[kWaistYaw]);
   const double arm = std::abs(robot.com_x_B);
   BodyRounding waist{.turn = WaistTurnRounding(motion),
                      .place = motion.rounding.waist,
                      .spin = off.first[kWaistYaw],
                      .spin1 = off.second[kWaistYaw]};
-  const double place = Product(rate, waist.spin, height, waist.place);
+  const double origin = motion.rounding.origin;
+  const double place = Product(rate, waist.spin, height, origin);
   waist.velocity = speed_off + place + 16.0 * kRoundoff * (speed + rate * height);
   const double turning = rate1 + rate * rate;
   const double turning_off = waist.spin1 + Product(rate, waist.spin, rate, waist.spin);
@@ -61,7 +62,7 @@ BodyRounding OfWaist(const RobotModel& robot, const IntervalMotion& motion,
       off.second[kComX] + off.second[kComY] + off.second[kWaistZ] +
       arm * (turning_off + (waist.turn + 8.0 * kRoundoff) * (turning + turning_off));
   waist.acceleration =
-      of_origin + Product(rate1, waist.spin1, height, waist.place) +
+      of_origin + Product(rate1, waist.spin1, height, origin) +
       Product(rate, waist.spin, speed, speed_off) +
       32.0 * kRoundoff * (at.acceleration + arm * turning + rate1 * height + rate * speed);
   return waist;

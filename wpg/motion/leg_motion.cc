@@ -130,7 +130,7 @@ class LinkChain {
 RigidMotion MotionOfWaist(const RobotModel& robot, const IntervalMotion& motion,
                           const WalkThirds& thirds) {
   RigidMotion waist = UprightMotion(motion, thirds, kComX, kWaistZ, kWaistYaw,
-                                    WaistTurnRounding(motion), motion.rounding.waist);
+                                    WaistTurnRounding(motion), motion.rounding.origin);
   waist.p.center.z() += robot.waist_height;
   return waist;
 }

@@ -62,7 +62,7 @@ MotionBounds::BaseRates MotionBounds::WaistRates(const IntervalMotion& motion) c
   const double second = InSpace(motion.second, kComX, kWaistZ);
   rates.acceleration = second + arm * Turning(rates);
   rates.speed = InSpace(motion.jet.first, kComX, kWaistZ) + motion.half_width * second +
-                arm * rates.yaw_rate + motion.rounding.waist_speed;
+                arm * rates.yaw_rate + motion.rounding.origin_speed;
   return rates;
 }
 

@@ -204,6 +204,8 @@ PostureRounding RoundingOfPostures::At(const WalkJet& jet, const WalkJet& walk,
                                        const Posture& posture) const {
   const Upright waist = WaistOf(robot_, jet, walk);
   PostureRounding rounding;
+  rounding.origin = waist.place;
+  rounding.origin_speed = waist.speed;
   rounding.waist =
       waist.place + waist.turn * waist_ + 12.0 * kU * (Sum(posture.X_WB.translation()) + waist_);
   rounding.waist_speed =

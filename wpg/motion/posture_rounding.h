@@ -11,7 +11,9 @@ namespace halfstep {
 
 /// LegRounding of both legs, and the same of the waist.
 struct PostureRounding {
-  double waist = 0.0;               ///< of a point that is rigid with the waist, in W [m]
+  double origin = 0.0;              ///< of the waist's origin, in W [m]; no matter what it weighs
+  double origin_speed = 0.0;        ///< of its velocity [m/s]
+  double waist = 0.0;               ///< of a point of the waist's bodies or its CoM, in W [m]
   double waist_speed = 0.0;         ///< of its velocity [m/s]
   std::array<LegRounding, 2> legs;  ///< by Index(Side)
 };
