@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
-#include <regex>
 
 #include "experiments/commands/commands.h"
 #include "experiments/config/experiment.h"
@@ -13,6 +12,7 @@
 #include "experiments/survey/support_search.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/run_check.h"
+#include "tests/patterns.h"
 #include "tests/places.h"
 #include "tests/replaced.h"
 #include "tests/temporary_folder.h"
@@ -108,8 +108,8 @@ TEST(RobotSurvey, FindsLegsSolesAndAPostureOfRobotsWithOtherAxes) {
 // Knees of half the torque: bison stands straighter, and the file says why.
 TEST(RobotSurvey, BendsKneesLessForTheirTorque) {
   const TemporaryFolder place;
-  const std::string urdf = std::regex_replace(ReadText(kRobots / "bison.urdf"),
-                                              std::regex("effort=\"300\""), "effort=\"150\"");
+  const std::string urdf =
+      AllReplaced(ReadText(kRobots / "bison.urdf"), "effort=\"300\"", "effort=\"150\"");
   const RobotDraft draft =
       SurveyRobot({.urdf = WriteText(place / "bison.urdf", urdf),
                    .packages = {{"bison_bodies", (kRobots / "bison").string()}}})
@@ -165,12 +165,11 @@ TEST(RobotSurvey, SaysFirstWhatKeepsARobotFromBeingOfTheClass) {
   EXPECT_EQ(UrdfRefusal(good), "");
   EXPECT_THAT(UrdfRefusal("<robot name='r'><link name='stone'/></robot>"),
               HasSubstr("there are no two legs (valid: two legs of six revolute joints)"));
-  EXPECT_THAT(UrdfRefusal(std::regex_replace(good, std::regex("joint5' type='revolute'"),
-                                             "joint5' type='fixed'")),
+  EXPECT_THAT(UrdfRefusal(AllReplaced(good, "joint5' type='revolute'", "joint5' type='fixed'")),
               HasSubstr("has 5 moving joints"));
   // An ankle that turns one way only.
-  const std::regex ankle("('left_joint4'[^]*?<limit lower=')[^']*(' upper=')[^']*");
-  const std::string stiff = UrdfRefusal(std::regex_replace(good, ankle, "$011.4$021.5"));
+  const std::string ankle("('left_joint4'[^]*?<limit lower=')[^']*(' upper=')[^']*");
+  const std::string stiff = UrdfRefusal(AllReplaced(good, ankle, "$011.4$021.5"));
   EXPECT_THAT(stiff, HasSubstr("within the joints' limits: left_joint4 would be at "));
   EXPECT_THAT(stiff, HasSubstr("its limits are 80.2 and 85.9 deg (valid: "));
   // What is wrong with a finger is told later, and as a warning.
@@ -211,10 +210,9 @@ TEST(RobotSurvey, WritesTurnedFramesThatReadBack) {
       draft.R_LinkB.col(1) = (y < 3 ? 1 : -1) * Eigen::Vector3d::Unit(y % 3);
       draft.R_LinkB.col(2) = draft.R_LinkB.col(0).cross(draft.R_LinkB.col(1));
       if (draft.R_LinkB.isIdentity()) continue;  // is not written
-      std::smatch n;
-      const std::string yaml = YamlOf(draft);
-      ASSERT_TRUE(std::regex_search(
-          yaml, n, std::regex("waist_rpy_deg: \\[([-.0-9]+), ([-.0-9]+), ([-.0-9]+)\\]")));
+      const PatternMatch n =
+          FirstMatch(YamlOf(draft), "waist_rpy_deg: \\[([-.0-9]+), ([-.0-9]+), ([-.0-9]+)\\]");
+      ASSERT_TRUE(n);
       constexpr double kDegree = std::numbers::pi / 180.0;
       const Eigen::Matrix3d R = RollPitchYaw(kDegree * std::stod(n[1]), kDegree * std::stod(n[2]),
                                              kDegree * std::stod(n[3]));
@@ -266,12 +264,9 @@ TEST(RobotCommand, WritesTheDraftOfARobotThatItRefuses) {
       draft_of("<robot name='r'><link name='stone'/></robot>", "there are no two legs");
   EXPECT_THAT(no_legs, HasSubstr("# Waist and legs were not found."));
   // Feet without bodies.
-  const std::string no_soles =
-      draft_of(std::regex_replace(urdf,
-                                  std::regex("<collision>[^\\n]*<box size='0.2 0.11 0.04'/>[^\\n]*"
-                                             "</collision>"),
-                                  ""),
-               "foot has no collision bodies");
+  const std::string no_soles = draft_of(
+      AllReplaced(urdf, "<collision>[^\\n]*<box size='0.2 0.11 0.04'/>[^\\n]*</collision>", ""),
+      "foot has no collision bodies");
   EXPECT_THAT(no_soles, HasSubstr("waist_link: 'waist'"));
   EXPECT_THAT(no_soles, HasSubstr("# The soles were not looked for."));
 }
