@@ -184,8 +184,7 @@ WalkRun ReadEpisodeRun(const std::string& folder, const std::string& robot_file,
   }
   scene = WithSpareBoxes(std::move(scene), config.live);
   verify::Findings findings;
-  const verify::CertificateText demands =
-      verify::DemandsOf(experiment.smoothing.limits, &findings);
+  const verify::CertificateText demands = verify::DemandsOf(experiment.smoothing.limits, &findings);
   const verify::EpisodeText episode =
       verify::ReadEpisode(root, static_cast<size_t>(manifest.walks));
   verify::CheckEpisodeNumbers(episode, scene, &findings);

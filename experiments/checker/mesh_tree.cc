@@ -48,8 +48,7 @@ MeshTree::MeshTree(const TriangleMesh& mesh) : mesh_(mesh) {
 Eigen::Matrix3d MeshTree::Corners(size_t triangle) const {
   Eigen::Matrix3d corners;
   for (Eigen::Index k = 0; k < 3; ++k) {
-    corners.col(k) =
-        mesh_.vertices.col(mesh_.triangles(k, static_cast<Eigen::Index>(triangle)));
+    corners.col(k) = mesh_.vertices.col(mesh_.triangles(k, static_cast<Eigen::Index>(triangle)));
   }
   return corners;
 }
@@ -93,9 +92,8 @@ bool MeshTree::IsOutside(const Vector& point) const {
     for (const double sign : {1.0, -1.0}) {
       Eigen::AlignedBox3d ray = BoxOf(point);
       (sign > 0.0 ? ray.max() : ray.min())[static_cast<Eigen::Index>(axis)] = sign * kEverywhere;
-      if (std::ranges::all_of(index_.Meeting(ray), [&](size_t i) {
-            return Misses(Corners(i), point, axis, sign);
-          })) {
+      if (std::ranges::all_of(index_.Meeting(ray),
+                              [&](size_t i) { return Misses(Corners(i), point, axis, sign); })) {
         return true;
       }
     }

@@ -62,8 +62,8 @@ Kept WalkStatements::FromMesh(WalkStatement* statement, const FrameIn<Curve>& X_
   for (const ConvexBody& triangle :
        mesh.Near(CenterAt(X_OB, moving.shape), Above(moving.shape.radius + least))) {
     Eigen::Vector3d direction(0, 0, 0);
-    kept = Least(kept, Apart({triangle, X_WO, CenterAt(X_WO, triangle)}, moving, least, &direction,
-                             false));
+    kept = Least(
+        kept, Apart({triangle, X_WO, CenterAt(X_WO, triangle)}, moving, least, &direction, false));
   }
   if (kept.bound < least) return kept;
   const VectorIn<Curve> point = X_OB * VectorOf<Curve>(moving.shape.vertices.col(0));

@@ -109,11 +109,10 @@ WalkRun ReadWalkRun(const std::string& run, const std::string& method,
       certificate.joint_acceleration);
   Scene scene;
   if (const auto named = ScenePath(config)) {
-    scene = verify::FindScene({"scene",
-                               root,
-                               {scene_file, *named, root / certificate.scene},
-                               manifest.scene_sha256})
-                .input;
+    scene =
+        verify::FindScene(
+            {"scene", root, {scene_file, *named, root / certificate.scene}, manifest.scene_sha256})
+            .input;
   }
   files.push_back(RecordOf(path(root, "config.yaml"), ReadBytes(path(root, "config.yaml"))));
   files.insert(files.end(), robot.files.begin(), robot.files.end());
@@ -155,8 +154,7 @@ WalkRun RunOf(const verify::WalkToProve& of) {
   const std::vector<Interval>& starts = walk.tables.starts;
   for (size_t k = 0; of.stop_branches != "none" && k + 1 < starts.size(); ++k) {
     if (of.stop_branches == "down" && k % 2 == 0) continue;
-    walk.branches.push_back(
-        {Formatted("stopped after half-step %zu", k + 1), k, starts[k + 1].lo});
+    walk.branches.push_back({Formatted("stopped after half-step %zu", k + 1), k, starts[k + 1].lo});
   }
   return walk;
 }

@@ -70,7 +70,8 @@ Kept WalkStatements::Apart(const Placed& a, const Placed& b, double demanded,
     return {kept.bound,
             std::max(kept.value, GapAlong(*direction, a.shape, Frame(), b.shape, there))};
   }
-  const SeparationHint hint = HintOf(a.shape, Eigen::Isometry3d::Identity(), b.shape, MiddleOf(FrameOver(X_AB, true)));
+  const SeparationHint hint =
+      HintOf(a.shape, Eigen::Isometry3d::Identity(), b.shape, MiddleOf(FrameOver(X_AB, true)));
   *direction = hint.direction;
   return {std::max(known, GapAlong(hint.direction, a.shape, Frame(), b.shape, over)),
           hint.distance};

@@ -92,7 +92,7 @@ class WalkStatements {
   const verify::CertificateText& certificate_;
   std::vector<ConvexBody> obstacles_;  ///< and the solids of the ground; of meshes what is around
   std::vector<std::unique_ptr<MeshTree>> meshes_;  ///< by obstacle; null: it is convex
-  ConvexBody foot_;                    ///< seen from above, in its sole's plane
+  ConvexBody foot_;                                ///< seen from above, in its sole's plane
   std::vector<WalkStatement> all_;
 };
 

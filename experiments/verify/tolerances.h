@@ -19,12 +19,12 @@ struct Tolerances {
   /// How far the played motion, straight between rows, may leave the walk where nobody says how
   /// far [m]: 1 mm for HRP-2.
   double played;
-  double length;    ///< one length from two sides [m]; angles of standing feet as well
-  double sole;      ///< a sole by forward kinematics against its columns [m], [rad]
-  double pendulum;  ///< residual of the pendulum's equation [m]
-  double row;       ///< a number of a row against the walk [m], [rad], [m/s], [m/s²]
-  double column;    ///< a margin column, [m], [rad] or [m/s]
-  double claim;     ///< a claimed margin, [m], [rad], [m/s]
+  double length;        ///< one length from two sides [m]; angles of standing feet as well
+  double sole;          ///< a sole by forward kinematics against its columns [m], [rad]
+  double pendulum;      ///< residual of the pendulum's equation [m]
+  double row;           ///< a number of a row against the walk [m], [rad], [m/s], [m/s²]
+  double column;        ///< a margin column, [m], [rad] or [m/s]
+  double claim;         ///< a claimed margin, [m], [rad], [m/s]
   double joint_speed;   ///< that is a difference of joint angles [rad/s]
   double momentum;      ///< the robot's ZMP by second differences of joint angles [m]
   double torque;        ///< joint torques by the same, which feet's shares magnify [N m]

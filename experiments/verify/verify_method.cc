@@ -117,8 +117,8 @@ MethodWalk WalkOf(const MethodFiles& files, const ExperimentConfig& config, cons
                   const Scene& scene, const RunManifest::Method* of_method, Findings* findings) {
   const LevelTops ground(scene);
   MethodWalk of{
-      .footsteps = ReadFootsteps(files.PathInRun("footsteps.csv"),
-                                 files.ReadOfRun("footsteps.csv")),
+      .footsteps =
+          ReadFootsteps(files.PathInRun("footsteps.csv"), files.ReadOfRun("footsteps.csv")),
       .half_steps = ReadHalfSteps(files.PathOf("half_steps.csv"), files.Read("half_steps.csv"))};
   if (files.Has("overlaps.csv")) {
     of.overlaps = ReadOverlaps(files.PathOf("overlaps.csv"), files.Read("overlaps.csv"));

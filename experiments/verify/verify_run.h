@@ -13,9 +13,9 @@ namespace halfstep::verify {
 /// `tolerance` is how far the played motion, which is straight between rows, may leave the
 /// certified walk [m] (chord against curve: about 0.3 mm at rows every 5 ms for HRP-2); where it is
 /// not given, Tolerances::played of the robot, 1 mm for HRP-2. It is taken off what is demanded of
-/// that motion's clearances and of the heights of its bodies that are not on a foot, and off nothing
-/// else: of the walk itself all that is demanded is proved, and rows and claims are compared with
-/// it.
+/// that motion's clearances and of the heights of its bodies that are not on a foot, and off
+/// nothing else: of the walk itself all that is demanded is proved, and rows and claims are
+/// compared with it.
 struct VerifyOptions {
   WalkProver prove = {};                   ///< has to be given (std::logic_error)
   std::string run;                         ///< run folder

@@ -49,8 +49,8 @@ void TellFamily(size_t number, const std::vector<ProvedStatement>& all, Findings
   }
   faults.Conclude(findings);
   if (count == 0) return;
-  std::string line = "for all t: " + name + ": " + Count(count) +
-                     (count == 1 ? " statement" : " statements");
+  std::string line =
+      "for all t: " + name + ": " + Count(count) + (count == 1 ? " statement" : " statements");
   if (nearest != nullptr && nearest->least < std::numeric_limits<double>::infinity()) {
     line += Formatted(", each by %.6g or more (", nearest->least) + nearest->subject +
             Formatted("), demanded %.6g", nearest->demanded);

@@ -16,12 +16,12 @@ namespace halfstep::verify {
 
 /// What a run says of a walk, and what is demanded of it.
 struct WalkToProve {
-  const RobotModel& robot;             ///< that walks
-  const Scene& scene;                  ///< among what
-  const CertificateText& certificate;  ///< what is demanded; its rows are not read
-  const HalfStep& form;                ///< of half-steps, by the config
-  const std::vector<FootstepRow>& footsteps;               ///< footsteps.csv
-  const std::vector<HalfStepRow>& half_steps;              ///< half_steps.csv
+  const RobotModel& robot;                     ///< that walks
+  const Scene& scene;                          ///< among what
+  const CertificateText& certificate;          ///< what is demanded; its rows are not read
+  const HalfStep& form;                        ///< of half-steps, by the config
+  const std::vector<FootstepRow>& footsteps;   ///< footsteps.csv
+  const std::vector<HalfStepRow>& half_steps;  ///< half_steps.csv
   const std::optional<std::vector<OverlapRow>>& overlaps;  ///< none: that of the plan
   const std::string& stop_branches;                        ///< demanded: none, down or all
 };
@@ -53,7 +53,7 @@ struct ProvedStatements {
 /// InputError for what is no walk. Handed in: the interval checker, which has the readers of verify
 /// and lies above it (checker::ProverOfWalks).
 struct WalkProver {
-  std::function<ProvedStatements(const WalkToProve&)> of_run = {};          ///< of a method
+  std::function<ProvedStatements(const WalkToProve&)> of_run = {};         ///< of a method
   std::function<ProvedStatements(const EpisodeToProve&)> of_episode = {};  ///< of what began
 };
 

@@ -165,8 +165,7 @@ std::vector<Wrong> Rows() {
        },
        "trajectory.csv:"},
       {"SoleBelowTheFloor", Of::kWalk,
-       InFlight([](PlayedRow& row) { row.soles[Swing(row)][2] = -1e-3; }),
-       "trajectory.csv:"},
+       InFlight([](PlayedRow& row) { row.soles[Swing(row)][2] = -1e-3; }), "trajectory.csv:"},
   };
 }
 
