@@ -33,7 +33,7 @@ struct WalkRun {
   double crouch = 0.0;                               ///< [m]
   bool whole = true;                                 ///< whether it is asked about itself
   std::vector<StopBranch> branches = {};             ///< of which the same is demanded
-  std::vector<std::string> not_covered;              ///< sentences on what is not looked at
+  std::vector<std::string> not_covered = {};         ///< sentences on what is not looked at
   std::optional<std::vector<double>> overlaps = {};  ///< [s]; none: `starts` are as planned
   std::vector<InputFile> files = {};                 ///< that a run's walk was read from
 };
