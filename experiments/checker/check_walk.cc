@@ -8,6 +8,7 @@
 #include "experiments/checker/standing_soles.h"
 #include "experiments/checker/tube_loss.h"
 #include "experiments/checker/walk_statements.h"
+#include "wpg/files/input_error.h"
 #include "wpg/files/text.h"
 #include "wpg/nth.h"
 
@@ -153,6 +154,9 @@ TrajectoryCheck CheckWalk(const WalkMotion& motion, const RobotModel& robot, con
                           double from) {
   std::optional<TubeLoss> tube;
   if (certificate.tube) tube.emplace(*certificate.tube, robot);
+  if (tube && !scene.ground->Solids().empty()) {
+    throw InputError({"the certificate is of a tube over solid ground, of which there is none"});
+  }
   verify::CertificateText asked = certificate;
   for (size_t f = 0; tube && f < verify::kNumFamilies; ++f) {
     asked.demanded[f] = tube->Demanded(static_cast<verify::Family>(f), asked.demanded[f]);

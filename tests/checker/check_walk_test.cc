@@ -396,7 +396,10 @@ TEST(CheckWalk, WhatItDoesNotKnowIsRefused) {
       CheckWalk(WalkMotion(walk.tables), walk.robot, walk.scene, walk.certificate, walk.crouch);
     });
   };
-  WalkRun walk = Wren().walk;
+  WalkRun walk = Stairs().walk;
+  walk.certificate.tube.emplace();
+  EXPECT_THAT(refused(walk), HasSubstr("a tube over solid ground"));
+  walk = Wren().walk;
   walk.tables.starts[2] = walk.tables.starts[1] - Interval(1e-6);
   EXPECT_THAT(refused(walk), HasSubstr("half-step 3: begins or ends before the one before it"));
   walk = Box().walk;

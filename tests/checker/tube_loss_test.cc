@@ -79,30 +79,5 @@ TEST(TubeLoss, WiderTubesAreNotProved) {
   EXPECT_FALSE(IsProved(walk));
 }
 
-// Over a step what the planned soles are above does not count, and the rest does.
-TEST(TubeLoss, OverSolidGroundCountsAsOnTheFloor) {
-  static const MadeRun run(R"(robot: hrp2
-scene: scene.yaml
-footsteps:
-  - {foot: right, x_m: 0.28, y_m: -0.085}
-  - {foot: left, x_m: 0.28, y_m: 0.085}
-half_step: {duration_s: 2, via_height_m: 0.18, foot_delay: 0.15, crouch_m: 0.01}
-)",
-                           R"(surfaces:
-  - name: tread
-    polygon_m: [[0.14, -1], [0.6, -1], [0.6, 1], [0.14, 1]]
-    height_m: 0.08
-)",
-                           R"(  profile: limit
-  tube: {foot_m: 0.001, waist_m: 0.001, joint_rad: 0.001}
-)");
-  ASSERT_TRUE(run.walk.certificate.tube);
-  const TrajectoryCheck check = run.Check();
-  EXPECT_TRUE(check.proved()) << (Missed(check).empty() ? "" : Missed(check)[0]->subject);
-  WalkRun walk = run.walk;
-  walk.certificate.tube->tube.foot += 0.05;
-  EXPECT_FALSE(IsProved(walk));
-}
-
 }  // namespace
 }  // namespace halfstep::checker
