@@ -9,6 +9,7 @@ namespace halfstep::checker {
 namespace {
 
 constexpr double kNoTouch = 1e-9;  // bodies keep as far off the triangles of a mesh at least [m]
+constexpr double kFarther = 0.01;  // by which a hull is farther than demanded [m]
 
 // The frame of an obstacle on an interval that holds no time of a waypoint: it goes straight from
 // one to the next, and turns steadily about the vertical.
@@ -81,7 +82,8 @@ Kept WalkStatements::FromObstacle(WalkStatement* statement, const Placed& moving
   const double demanded = Above(statement->demanded + away);
   Kept kept = Apart({shape, X_WO, CenterAt(X_WO, shape)}, moving, demanded, &statement->direction,
                     statement->told);
-  if (kept.bound < demanded && meshes_[statement->b]) {
+  // Where the hull is farther, shorter intervals will tell.
+  if (meshes_[statement->b] && kept.bound < demanded && kept.value < demanded + kFarther) {
     kept = FromMesh(statement, X_WO, moving, demanded);
   }
   return {checker::Below(kept.bound - away), kept.value - away, kept.hint_missing};
