@@ -218,7 +218,7 @@ TEST(CheckFloor, SeesABodyThatIsLowestBetweenTwoRows) {
     CertificateText certificate;
     certificate.demanded.fill(demanded);
     Findings findings;
-    CheckFloor(motion, WalkFloor(0), {}, certificate, 0, &findings);
+    CheckFloor(motion, WalkFloor(0), certificate, 0, &findings);
     EXPECT_EQ(findings.disagreements() > 0, demanded > middle);
   }
 }

@@ -33,7 +33,7 @@ TamperedWalk WalkOf(double size) {
 }
 
 verify::MethodVerification Verified(const TamperedRun& run) {
-  return verify::VerifyRun({.run = run.run().string(), .method = "dichotomy"}).front();
+  return VerifyProved({.run = run.run().string(), .method = "dichotomy"}).front();
 }
 
 TEST(VerifySize, DwarfsAndGiantsAreVerified) {
