@@ -35,7 +35,7 @@ struct ExecutedWalk {
   int first_changed = 0;                       ///< half-step; those before are the walk's before
   double asked = 0.0;                          ///< when the replanner began to work on it [s]
   double measured = 0.0;                       ///< t_m of the world that it was made for [s]
-  double check_s = 0.0, plan_s = 0.0, smooth_s = 0.0;  ///< of computing [s]
+  double check_s = 0.0, plan_s = 0.0, smooth_s = 0.0;  ///< of the processor, computing [s]
   double effort = 0.0;                                 ///< of computing, as counted (Work::effort)
 };
 

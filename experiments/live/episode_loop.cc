@@ -229,10 +229,10 @@ void EpisodeLoop::HandOver(const Proposal& proposal, double now) {
                            .first_changed = executor_->first() + proposal.first_changed,
                            .asked = asked_,
                            .measured = asked_about_->measured_at,
-                           .check_s = proposal.check_s,
-                           .plan_s = proposal.plan_s,
-                           .smooth_s = proposal.smooth_s,
-                           .effort = proposal.effort});
+                           .check_s = proposal.seconds.check,
+                           .plan_s = proposal.seconds.plan,
+                           .smooth_s = proposal.seconds.smooth,
+                           .effort = proposal.effort.all()});
   Record(proposal.grant, now);
   Tell(now, "handed_over", std::string(Name(proposal.kind)) + ": " + proposal.reason,
        proposal.first_changed);

@@ -81,7 +81,7 @@ bool FindOverlaps(const SafetyCheck& safety, const LiveConfig& config, double fr
                  .accepted_start = AcceptedInParts::Walk(proposal->plan.parameters),
                  .cheaper = sampled},
                 monitor);
-  proposal->effort += result.work.effort();
+  proposal->effort.smooth += result.work.effort();
   if (stop.stop_requested()) return false;
   proposal->plan.parameters = result.parameters;
   for (const int j : next) Nth(proposal->smoothed, j) = true;

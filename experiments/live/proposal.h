@@ -52,21 +52,29 @@ inline constexpr std::array kProposalKinds = {ProposalKind::kSafe,     ProposalK
 /// As walks.csv calls it: "changed".
 std::string_view Name(ProposalKind kind);
 
+/// What an answer took, by part.
+struct Spent {
+  double check = 0.0;                                   ///< finding what is safe
+  double plan = 0.0;                                    ///< looking for footsteps
+  double smooth = 0.0;                                  ///< looking for overlaps
+  double all() const { return check + plan + smooth; }  ///< of the three
+};
+
 /// What a replanner found.
 struct Proposal {
-  ProposalKind kind = ProposalKind::kSafe;             ///< what is proposed
-  std::string reason = {};                             ///< in words
-  WalkPlan plan = {};                                  ///< a successor, or the walk itself
-  std::vector<bool> smoothed = {};                     ///< of `plan`, as in Situation
-  int robot_through = -1;                              ///< of `plan`, as in Situation
-  int first_changed = -1;                              ///< half-step; −1: none
-  Grant grant = {};                                    ///< what is proved of `plan`
-  std::shared_ptr<const Course> course = {};           ///< of `plan`, as in Situation
-  bool refuses = false;                                ///< the footsteps that are commanded
-  double effort = 0.0;                                 ///< of it all, as Work::effort()
-  PlanResult planned = {};                             ///< the last search
-  std::int64_t nodes = 0;                              ///< of all searches
-  double check_s = 0.0, plan_s = 0.0, smooth_s = 0.0;  ///< where the time went [s]
+  ProposalKind kind = ProposalKind::kSafe;    ///< what is proposed
+  std::string reason = {};                    ///< in words
+  WalkPlan plan = {};                         ///< a successor, or the walk itself
+  std::vector<bool> smoothed = {};            ///< of `plan`, as in Situation
+  int robot_through = -1;                     ///< of `plan`, as in Situation
+  int first_changed = -1;                     ///< half-step; −1: none
+  Grant grant = {};                           ///< what is proved of `plan`
+  std::shared_ptr<const Course> course = {};  ///< of `plan`, as in Situation
+  bool refuses = false;                       ///< the footsteps that are commanded
+  Spent effort = {};                          ///< as Work::effort()
+  PlanResult planned = {};                    ///< the last search
+  std::int64_t nodes = 0;                     ///< of all searches
+  Spent seconds = {};                         ///< of the processor [s]
 };
 
 }  // namespace halfstep

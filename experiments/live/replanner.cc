@@ -8,6 +8,7 @@
 #include "experiments/live/near_rest.h"
 #include "experiments/live/overlap_search.h"
 #include "experiments/live/prepared_world.h"
+#include "experiments/live/thread_seconds.h"
 #include "experiments/run/planning.h"
 #include "wpg/nth.h"
 
@@ -99,7 +100,7 @@ std::optional<Margin> Replanner::Prove(const Situation& s, const SuperposedWalk&
            proved_alone_.Knows(walk, j);
   });
   for (int j = from; j <= robot.through; ++j) proved_alone_.Remember(walk, j);
-  proposal->effort += robot.work.effort();
+  proposal->effort.check += robot.work.effort();
   proposal->robot_through = std::max(robot.through, proposal->robot_through);
   Grant& grant = proposal->grant;
   // What is proved against this world already need not be proved again.
@@ -120,7 +121,7 @@ std::optional<Margin> Replanner::Prove(const Situation& s, const SuperposedWalk&
   };
   const int until = std::min({last, proposal->robot_through, walk.num_half_steps() - 1});
   Safety safety = among.safety.AmongObstacles(walk, first, until, since, known);
-  proposal->effort += safety.work.effort();
+  proposal->effort.check += safety.work.effort();
   for (int j = safety.through + 1; near && j <= until; j = safety.through + 1) {
     const bool follows = j == near->half_step() || std::ranges::count(grant.near, j - 1) > 0;
     if (!follows || j >= near->half_step() + kMostNear || !BeginsAtRest(walk, j)) break;
@@ -130,7 +131,7 @@ std::optional<Margin> Replanner::Prove(const Situation& s, const SuperposedWalk&
     grant.near.push_back(j);
     const int next = std::min(j + 1, walk.num_half_steps() - 1);
     safety = among.safety.AmongObstacles(walk, j + 1, until, walk.start_of(next), known);
-    proposal->effort += safety.work.effort();
+    proposal->effort.check += safety.work.effort();
   }
   grant.through = safety.through;
   return safety.refused_by ? safety.refused_by : robot.refused_by;
@@ -153,13 +154,13 @@ std::optional<Margin> Replanner::Splice(const Situation& s, const WalkPlan& plan
   // same, and so is what was proved of it.
   changed.robot_through = std::min(proposal->robot_through, junction);
   changed.grant.through = std::min(proposal->grant.through, junction);
-  const double check = SteadySeconds();
+  const double check = ThreadSeconds();
   const SuperposedWalk walk = changed.plan.Walk();
   const int last = std::min(junction + at_once, walk.num_half_steps() - 1);
   std::optional<Margin> refused = Prove(s, walk, last, among, near, &changed);
-  changed.check_s += SteadySeconds() - check;
+  changed.seconds.check += ThreadSeconds() - check;
   if (refused) {
-    proposal->check_s = changed.check_s;
+    proposal->seconds = changed.seconds;
     proposal->effort = changed.effort;
     return refused;
   }
@@ -217,7 +218,7 @@ std::string Replanner::Describe(const Situation& s, const PreparedWorld& among,
 
 Proposal Replanner::Propose(const Situation& s, const PreparedWorld& among,
                             std::mt19937_64& random) const {
-  const double begin = SteadySeconds();
+  const double begin = ThreadSeconds();
   Proposal proposal = WalkOf(s);
   const SuperposedWalk walk = proposal.plan.Walk();
   if (GoesOn(s) && walk.end_of(s.begun + 1) > among.world.valid_until()) {
@@ -233,7 +234,7 @@ Proposal Replanner::Propose(const Situation& s, const PreparedWorld& among,
   const bool planned_for = course && IsPlannedFor(s, among.world);
   const bool arrives = course ? planned_for && !RunsShort(s, proposal, *course)
                               : Arrives(proposal.plan, among.world);
-  proposal.check_s = SteadySeconds() - begin;
+  proposal.seconds.check = ThreadSeconds() - begin;
   if (!refused && arrives) {
     Improve(s, among, near, random, &proposal);
     return proposal;
@@ -260,13 +261,13 @@ void Replanner::Improve(const Situation& s, const PreparedWorld& among, const Ne
     proposal->first_changed = s.begun + 1;
     return;
   }
-  const double smooth = SteadySeconds();
+  const double smooth = ThreadSeconds();
   if (FindOverlaps(among.safety, config_, s.hand_over, s.begun, config_.live.smooth_ahead, proposal,
                    s.hurry)) {
     proposal->kind = ProposalKind::kSmoothed;
     proposal->reason = "overlaps";
   }
-  proposal->smooth_s = SteadySeconds() - smooth;
+  proposal->seconds.smooth = ThreadSeconds() - smooth;
   if (among.world.course || s.hurry.stop_requested()) return;
   if (proposal->kind == ProposalKind::kSafe && s.shorten) Shorten(s, among, near, random, proposal);
 }

@@ -8,6 +8,7 @@
 #include "experiments/live/overlap_search.h"
 #include "experiments/live/prepared_world.h"
 #include "experiments/live/replanner.h"
+#include "experiments/live/thread_seconds.h"
 #include "experiments/run/planning.h"
 #include "wpg/nth.h"
 
@@ -121,7 +122,7 @@ bool Replanner::Follow(const Situation& s, const WalkPlan& plan, int junction, c
   if (course.kind == CourseKind::kFootsteps) {
     return FollowList(s, plan, junction, course, among, near, proposal);
   }
-  const double begin = SteadySeconds();
+  const double begin = ThreadSeconds();
   const Standing standing = StandingAfter(plan, junction);
   const SuperposedWalk walk = plan.Walk();
   const double kept = walk.end_of(junction) - walk.start_of(std::min(s.begun + 1, junction));
@@ -130,7 +131,7 @@ bool Replanner::Follow(const Situation& s, const WalkPlan& plan, int junction, c
   proposal->planned = {};
   proposal->planned.status = PlanStatus::kSolved;
   proposal->planned.footsteps = footsteps;
-  proposal->plan_s += SteadySeconds() - begin;
+  proposal->seconds.plan += ThreadSeconds() - begin;
   const auto take = [&](const std::vector<Footstep>& some) {
     auto refused = Splice(s, plan, junction, some, kAtOnce, among, near, proposal);
     if (!refused) proposal->course = among.world.course;

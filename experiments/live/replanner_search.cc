@@ -4,6 +4,7 @@
 #include "experiments/live/near_start_query.h"
 #include "experiments/live/prepared_world.h"
 #include "experiments/live/replanner.h"
+#include "experiments/live/thread_seconds.h"
 #include "experiments/run/planning.h"
 #include "planner/search/planners.h"
 #include "wpg/nth.h"
@@ -70,7 +71,7 @@ PlanResult Replanner::PlanAfter(const Situation& s, const WalkPlan& plan, int ju
                                 const PreparedWorld& among, const GoalRegion& goal,
                                 const NearRest* near, std::mt19937_64& random,
                                 Proposal* proposal) const {
-  const double begin = SteadySeconds();
+  const double begin = ThreadSeconds();
   const auto& [half_step, X_WS, rest] = Nth(plan.sequence.half_steps, junction);
   std::optional<StepState> in_air;
   if (half_step.kind == HalfStepKind::kUp) in_air = {X_WS, half_step.support};
@@ -82,9 +83,9 @@ PlanResult Replanner::PlanAfter(const Situation& s, const WalkPlan& plan, int ju
       s.stopped || (junction + 1 == plan.sequence.size() && plan.Walk().duration() <= s.hand_over);
   PlanResult result = Plan(stance, in_air, among, goal, from_rest, rests, left, random);
   proposal->nodes += result.nodes;
-  proposal->effort += result.effort();
+  proposal->effort.plan += result.effort();
   proposal->planned = result;
-  proposal->plan_s += SteadySeconds() - begin;
+  proposal->seconds.plan += ThreadSeconds() - begin;
   return result;
 }
 

@@ -24,7 +24,7 @@ void LockstepThinker::Ask(Situation situation) {
 
 double LockstepThinker::ReadyAt() const {
   const BudgetConfig& budget = replanner_.config().live.budget;
-  if (budget.effort > 0.0) return question_.now + budget.effort * proposal_->effort;
+  if (budget.effort > 0.0) return question_.now + budget.effort * proposal_->effort.all();
   const bool planned = proposal_->planned.status != PlanStatus::kNotRun;
   return question_.now + budget.check + (planned ? budget.plan : 0.0) +
          (proposal_->kind == ProposalKind::kSmoothed ? budget.smooth : 0.0);

@@ -20,6 +20,14 @@ using Eigen::Vector3d;
 // Tops this little above a sole are at it: the same level by another sum [m].
 constexpr double kSameLevel = 1e-8;
 
+// From W into the frame of a sole with this cosine and sine of its yaw, and there into the mirror.
+Matrix3d RotationInto(double c, double s, bool mirrored) {
+  const double sign = mirrored ? -1.0 : 1.0;
+  Matrix3d R;
+  R << c, s, 0, -sign * s, sign * c, 0, 0, 0, 1;
+  return R;
+}
+
 }  // namespace
 
 SweptVolumeQuery::SweptVolumeQuery(const SweptVolumes& volumes,
@@ -36,8 +44,8 @@ SweptVolumeQuery::SweptVolumeQuery(const SweptVolumes& volumes,
       levels_(*scene.ground),
       sole_outline_(sole_outline),
       foothold_(foothold),
-      areas_(scene, sole_outline),
-      no_step_(no_step) {
+      no_step_(no_step),
+      areas_(scene, sole_outline) {
   const size_t size = volumes.set.placements.size();
   ForEachVolume(volumes, volumes.set.on_levels, [size](const SweptVolumes::Volumes& all) {
     HALFSTEP_CHECK(all.size() == size, all.size() << " volumes of " << size);
@@ -74,21 +82,24 @@ SweptVolumeQuery::SweptVolumeQuery(const SweptVolumes& volumes,
   PlantTree(cylinders);
 }
 
-bool SweptVolumeQuery::MeetsObstacle(const BoxTree& tree, const Placed& placed,
-                                     const Prepared& obstacle, double extra) const {
-  // Seen from the support sole, and in the mirror for a right support.
-  const double c = placed.cos, s = placed.sin, sign = placed.mirrored ? -1.0 : 1.0;
-  Matrix3d R;
-  R << c, s, 0, -sign * s, sign * c, 0, 0, 0, 1;
+OrientedBox SweptVolumeQuery::Seen(const Placed& placed, const Prepared& obstacle) {
+  const Matrix3d R = RotationInto(placed.cos, placed.sin, placed.mirrored);
   const Vector3d p_WS(placed.X_WS.x, placed.X_WS.y, placed.X_WS.height);
-  const OrientedBox around{.center = R * (obstacle.around_W.center - p_WS),
-                           .half = obstacle.around_W.half,
-                           .axes = R * obstacle.around_W.axes};
+  return {.center = R * (obstacle.around_W.center - p_WS),
+          .half = obstacle.around_W.half,
+          .axes = R * obstacle.around_W.axes};
+}
+
+bool SweptVolumeQuery::MeetsObstacle(const BoxTree& tree, const Placed& placed,
+                                     const Prepared& obstacle, const OrientedBox& around,
+                                     double extra) const {
   if (std::holds_alternative<std::monostate>(obstacle.shape)) return Meets(tree, around, extra);
   if (const auto* round = std::get_if<RoundBody>(&obstacle.shape)) {
     return Meets(tree, *round, around.center, around.axes, extra);
   }
   const Mesh& mesh = *std::get<std::shared_ptr<const Mesh>>(obstacle.shape);
+  const Matrix3d R = RotationInto(placed.cos, placed.sin, placed.mirrored);
+  const Vector3d p_WS(placed.X_WS.x, placed.X_WS.y, placed.X_WS.height);
   const Vector3d origin = R * (obstacle.X_WO.translation() - p_WS);
   const Matrix3d axes = R * obstacle.X_WO.linear();
   if (Meets(tree, mesh.triangles, origin, axes, extra)) return true;
@@ -110,7 +121,9 @@ bool SweptVolumeQuery::IsFree(const Placed& placed, double extra) const {
   const double sign = placed.mirrored ? -1.0 : 1.0;
   const Vector3d middle(placed.bounds.middle.x(), sign * placed.bounds.middle.y(),
                         placed.bounds.middle.z() + placed.X_WS.height);
-  const Vector3d half = placed.bounds.half.array() + Slack(placed, extra);
+  // Twice the slack of a leaf's places: where one of them is near, so are the nodes above it,
+  // however both round. What is free does not depend on the tree then.
+  const Vector3d half = placed.bounds.half.array() + 2.0 * Slack(placed, extra);
   int32_t stack[BoundsTree::kDeepest];
   int top = 0;
   stack[top++] = 0;
@@ -162,7 +175,9 @@ bool SweptVolumeQuery::MeetsLeaf(const Placed& placed, const BoundsTree::Node& l
       const size_t k = static_cast<size_t>(std::countr_zero(static_cast<unsigned>(near)));
       const Prepared& place = Nth(places_, place_at_[4 * block + k]);
       if (place.top <= placed.above) continue;
-      if (MeetsObstacle(*placed.volume, placed, place, extra + place.extra)) return true;
+      if (MeetsObstacle(*placed.volume, placed, place, Seen(placed, place), extra + place.extra)) {
+        return true;
+      }
     }
   }
   return false;

@@ -59,6 +59,7 @@ class SweptVolumeQuery : public HalfStepQuery {
   void SetObstaclePose(int obstacle, const Eigen::Isometry3d& X_WO);
 
  private:
+  friend class StanceQuery;
   struct Mesh {
     explicit Mesh(const TriangleMesh& mesh) : triangles(mesh), interior(mesh) {}
     TriangleTree triangles;
@@ -94,9 +95,8 @@ class SweptVolumeQuery : public HalfStepQuery {
     const Bounds& bounds;
     bool mirrored;
     Foothold X_WS;
-    double cos, sin;  // of its yaw
-    // Solids whose top is here or lower are left out [m].
-    double above = -std::numeric_limits<double>::infinity();
+    double cos, sin;                                          // of its yaw
+    double above = -std::numeric_limits<double>::infinity();  // solids up to here do not count
   };
   // Of a half-step: of all bodies, or of the parts of a set on levels.
   struct PlacedParts {
@@ -121,28 +121,29 @@ class SweptVolumeQuery : public HalfStepQuery {
   double Slack(const Placed& placed, double extra) const;
   // Whether the volume meets a place among those of a leaf of the tree.
   bool MeetsLeaf(const Placed& placed, const BoundsTree::Node& leaf, double extra) const;
+  // An obstacle as it is seen from the support sole, and in the mirror for a right support.
+  static OrientedBox Seen(const Placed& placed, const Prepared& obstacle);
+  // Whether the volume meets it; `around` is Seen().
   bool MeetsObstacle(const BoxTree& tree, const Placed& placed, const Prepared& obstacle,
-                     double extra) const;
+                     const OrientedBox& around, double extra) const;
   double Clearance(const PlacedParts& parts, double cap) const;
 
   const SweptVolumes& volumes_;
   std::vector<Bounds> down_bounds_, up_bounds_;
   std::vector<Bounds> down_swing_bounds_, up_swing_bounds_, down_stand_bounds_, up_stand_bounds_;
-  std::vector<Prepared> places_;      // of the obstacles in their order, one or more of each
-  std::vector<int> only_places_;      // by obstacle; −1: it has waypoints
-  BoundsTree tree_;                   // of the cylinders
-  std::vector<int32_t> leaf_begins_;  // by node: a leaf's first slot, a multiple of four
-  std::vector<int32_t> slots_;        // by place
-  std::vector<Cylinders> cylinders_;  // by slot / 4
-  std::vector<int32_t> place_at_;     // by slot
-  double farthest_ = 0.0;             // coordinate of an obstacle [m]
+  std::vector<Prepared> places_;           // of the obstacles in their order, one or more of each
+  std::vector<int> only_places_;           // by obstacle; −1: it has waypoints
+  BoundsTree tree_;                        // of the cylinders
+  std::vector<int32_t> leaf_begins_;       // by node: a leaf's first slot, a multiple of four
+  std::vector<int32_t> slots_, place_at_;  // by place; by slot
+  std::vector<Cylinders> cylinders_;       // by slot / 4
+  double farthest_ = 0.0;                  // coordinate of an obstacle [m]
   std::shared_ptr<const Ground> ground_;
   std::optional<double> level_;  // the only one [m]; none: the set is on levels
   LevelBorders levels_;
   Eigen::Matrix2Xd sole_outline_;
-  double foothold_ = 0.0;
+  double foothold_ = 0.0, no_step_ = 0.0;  // [m]
   NoStepAreas areas_;
-  double no_step_ = 0.0;
 };
 
 }  // namespace halfstep

@@ -1,10 +1,10 @@
-// How the cost of replanning grows with the obstacles, most of which are far away, and with what is
-// left of the walk: medians of the time that the processor took [ms].
+// How the cost of replanning grows with the obstacles, most of which are far away, with what is
+// left of the walk, and with the half-steps that there are to choose from: medians of the time that
+// the processor took [ms].
 //   live_growth_study obstacles N...
 //   live_growth_study way METRES...
+//   live_growth_study half_steps N...
 // HRP-2's swept volumes from the user's cache, baked when they are not there.
-
-#include <time.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +16,7 @@
 #include "experiments/live/past_worlds.h"
 #include "experiments/live/prepared_world.h"
 #include "experiments/live/replanner.h"
+#include "experiments/live/thread_seconds.h"
 #include "experiments/run/baked_half_steps.h"
 #include "tests/places.h"
 
@@ -26,19 +27,13 @@ using namespace halfstep;
 constexpr int kRepeats = 9;
 constexpr double kPeriod = 0.01;  // of frames [s]
 
-double ProcessorSeconds() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
 // Of the time that `work` takes [ms].
 double Median(const std::function<void()>& work) {
   std::vector<double> times;
   for (int i = 0; i < kRepeats; ++i) {
-    const double begin = ProcessorSeconds();
+    const double begin = ThreadSeconds();
     work();
-    times.push_back(1e3 * (ProcessorSeconds() - begin));
+    times.push_back(1e3 * (ThreadSeconds() - begin));
   }
   std::ranges::nth_element(times, times.begin() + kRepeats / 2);
   return times[kRepeats / 2];
@@ -81,11 +76,46 @@ Known Watch(const TrueWorld& truth, const LiveOptions& options, std::mt19937_64&
   return known;
 }
 
-void PrintRow(LiveConfig config, int obstacles, double way) {
+// So many half-steps of a set that differ: the one that lands most nearly beside the support sole,
+// then always the one that is farthest from those taken.
+SweptVolumes Few(const SweptVolumes& all, int count) {
+  constexpr double kMetresPerRadian = 0.3;
+  const std::vector<Foothold>& places = all.set.placements;
+  const auto apart = [](const Foothold& a, const Foothold& b) {
+    return std::hypot(a.x - b.x, a.y - b.y, kMetresPerRadian * (a.yaw - b.yaw));
+  };
+  // From those taken, of each [m].
+  std::vector<double> distances(places.size(), INFINITY);
+  SweptVolumes few{.set = all.set, .down = {}, .up = {}};
+  few.set.placements.clear();
+  const auto take = [&](size_t i) {
+    few.set.placements.push_back(places[i]);
+    few.down.push_back(all.down[i]);
+    few.up.push_back(all.up[i]);
+    for (size_t k = 0; k < places.size(); ++k) {
+      distances[k] = std::min(distances[k], apart(places[k], places[i]));
+    }
+  };
+  const auto off = [](const Foothold& X_SF) {
+    return std::abs(X_SF.x) + kMetresPerRadian * std::abs(X_SF.yaw) + 0.1 * std::abs(X_SF.y);
+  };
+  const auto beside = std::ranges::min_element(places, {}, off);
+  take(static_cast<size_t>(beside - places.begin()));
+  for (int i = 1; i < std::min(count, all.set.size()); ++i) {
+    take(static_cast<size_t>(std::ranges::max_element(distances) - distances.begin()));
+  }
+  return few;
+}
+
+constexpr int kAll = 1 << 20;  // half-steps
+
+void PrintRow(LiveConfig config, int obstacles, double way, int half_steps) {
   config.experiment.goal.X_WG = {way, 0.0, 0.0};
   const Place place = LoadPlace(config.experiment);
   const BakedHalfSteps baked = BakeHalfSteps(place.robot, config.experiment, {});
-  const Replanner replanner(place, config, *baked.cached.volumes);
+  const SweptVolumes& volumes = *baked.cached.volumes;
+  const SweptVolumes few = half_steps < volumes.set.size() ? Few(volumes, half_steps) : volumes;
+  const Replanner replanner(place, config, few);
   const TrueWorld truth(Boxes(obstacles, way), config.experiment.goal, config.live);
   std::mt19937_64 random(1);
   const Known known = Watch(truth, config.live, random);
@@ -125,22 +155,26 @@ void PrintRow(LiveConfig config, int obstacles, double way) {
   const double change = propose(moved, true, ProposalKind::kChanged) - check;
   moved.goal.X_WG.x = -1000.0;
   const double vain = propose(moved, true, ProposalKind::kUnsafe) - check;
-  std::printf("| %d | %d | %.3f | %.2f | %.1f | %.1f | %.1f | %.1f |\n", obstacles,
-              walk.plan.sequence.size(), frame, prepare, check, change, smooth, vain);
+  std::printf("| %d | %d | %d | %.3f | %.2f | %.1f | %.1f | %.1f | %.1f |\n", obstacles,
+              few.set.size(), walk.plan.sequence.size(), frame, prepare, check, change, smooth,
+              vain);
   std::fflush(stdout);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  const bool obstacles = argc > 1 && std::string(argv[1]) == "obstacles";
+  const std::string grows = argc > 1 ? argv[1] : "";
   LiveConfig config = LoadLiveConfig(InSources("experiments/episodes/live_bar.yaml"), {});
   config.live.script.clear();
   std::printf(
-      "| obstacles | half-steps | frame | prepare | check | plan | smooth | search in vain |\n"
-      "|---|---|---|---|---|---|---|---|\n");
+      "| obstacles | of the set | half-steps | frame | prepare | check | plan | smooth | "
+      "search in vain |\n|---|---|---|---|---|---|---|---|---|\n");
   for (int i = 2; i < argc; ++i) {
-    PrintRow(config, obstacles ? std::stoi(argv[i]) : 10, obstacles ? 2.4 : std::stod(argv[i]));
+    const bool obstacles = grows == "obstacles", half_steps = grows == "half_steps";
+    PrintRow(config, obstacles ? std::stoi(argv[i]) : 10,
+             obstacles || half_steps ? 2.4 : std::stod(argv[i]),
+             half_steps ? std::stoi(argv[i]) : kAll);
   }
   return 0;
 }

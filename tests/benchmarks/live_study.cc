@@ -105,6 +105,8 @@ int main(int argc, char** argv) {
   std::printf("\n");
   PrintTable(episodes);
   std::printf("\n");
+  PrintSpent(episodes);
+  std::printf("\n");
   PrintHistogram(episodes);
   for (const StudiedEpisode& episode : episodes) {
     if (episode.touched() && !episode.excused) return 1;

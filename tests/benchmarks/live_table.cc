@@ -119,6 +119,37 @@ void PrintTable(const Episodes& episodes) {
   Line("computing for each second of walk", Formatted("%.2f s", cpu / walked), "");
 }
 
+void PrintSpent(const Episodes& episodes) {
+  std::printf(
+      "| part of an answer | answers | counted, median, p99 [ms] | processor, median, p99 [ms] | "
+      "processor for each unit counted |\n|---|---|---|---|---|\n");
+  const auto line = [&](const char* part, ProposalKind kind,
+                        const std::function<double(const Spent&)>& of, bool prepared = false) {
+    std::vector<double> counted, taken;
+    double all_counted = 0.0, all_taken = 0.0;
+    for (const StudiedEpisode& episode : episodes) {
+      for (const Answered& answer : episode.answers) {
+        if (answer.kind != kind) continue;
+        counted.push_back(of(answer.effort));
+        taken.push_back(prepared ? answer.asking : of(answer.seconds));
+        all_counted += counted.back();
+        all_taken += taken.back();
+      }
+    }
+    std::printf("| %s | %zu | %.1f, %.1f | %.1f, %.1f | %.2f |\n", part, counted.size(),
+                1e3 * At(counted, 0.5), 1e3 * At(counted, 0.99), 1e3 * At(taken, 0.5),
+                1e3 * At(taken, 0.99), all_taken / all_counted);
+  };
+  const auto all = [](const Spent& spent) { return spent.all(); };
+  line("other footsteps: check", ProposalKind::kChanged, [](const Spent& s) { return s.check; });
+  line("other footsteps: plan", ProposalKind::kChanged, [](const Spent& s) { return s.plan; });
+  line("other footsteps, all of it", ProposalKind::kChanged, all);
+  line("the same with preparing its world", ProposalKind::kChanged, all, true);
+  line("other overlaps: check", ProposalKind::kSmoothed, [](const Spent& s) { return s.check; });
+  line("other overlaps: smooth", ProposalKind::kSmoothed, [](const Spent& s) { return s.smooth; });
+  line("searches in vain", ProposalKind::kUnsafe, all);
+}
+
 void PrintHistogram(const Episodes& episodes) {
   const std::vector<double> bounds = {0.001, 0.002, 0.005, 0.01, 0.02, 0.05,    0.1,
                                       0.2,   0.5,   1.0,   2.0,  5.0,  INFINITY};

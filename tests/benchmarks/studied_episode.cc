@@ -1,17 +1,20 @@
 #include "tests/benchmarks/studied_episode.h"
 
-#include <time.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <random>
+#include <utility>
 
+#include "experiments/live/episode_clock.h"
+#include "experiments/live/episode_loop.h"
 #include "experiments/live/episode_summary.h"
 #include "experiments/live/episode_tables.h"
 #include "experiments/live/episode_touch.h"
 #include "experiments/live/near_rest.h"
 #include "experiments/live/sensor.h"
+#include "experiments/live/thinker.h"
+#include "experiments/live/thread_seconds.h"
 #include "smoothing/proof/certified_feasibility.h"
 #include "tests/benchmarks/random_episode.h"
 #include "wpg/files/sha256.h"
@@ -20,10 +23,44 @@
 namespace halfstep {
 namespace {
 
-double ThreadSeconds() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+// Keeps what every answer cost.
+class MeteredThinker final : public Thinker {
+ public:
+  MeteredThinker(Thinker* of, std::vector<Answered>* answers) : of_(*of), answers_(*answers) {}
+
+  void Ask(Situation situation) override {
+    const double begin = ThreadSeconds();
+    of_.Ask(std::move(situation));
+    asking_ = ThreadSeconds() - begin;
+  }
+  std::optional<Proposal> Answer(double now) override {
+    std::optional<Proposal> answer = of_.Answer(now);
+    if (answer) answers_.push_back({answer->kind, answer->effort, answer->seconds, asking_});
+    return answer;
+  }
+  void Hurry(double now) override { of_.Hurry(now); }
+
+ private:
+  Thinker& of_;
+  std::vector<Answered>& answers_;
+  double asking_ = 0.0;
+};
+
+// RunLockstep or RunWallClock, as the config has it, and what the answers cost.
+Episode Run(const Replanner& replanner, Sensor* sensor, const std::array<Foothold, 2>& start,
+            std::vector<Answered>* answers) {
+  const auto seed = static_cast<std::uint64_t>(replanner.config().experiment.seed);
+  const EpisodeHooks hooks{};
+  if (replanner.config().live.clock == "wall") {
+    ThreadThinker thinker(replanner, seed);
+    MeteredThinker metered(&thinker, answers);
+    WallClock clock;
+    return EpisodeLoop(replanner, sensor, &metered, &clock, hooks).Run(start);
+  }
+  LockstepThinker thinker(replanner, seed);
+  MeteredThinker metered(&thinker, answers);
+  EpisodeClock clock;
+  return EpisodeLoop(replanner, sensor, &metered, &clock, hooks).Run(start);
 }
 
 // The duration of a walk that knew from the beginning how everything ends, with the overlaps of so
@@ -189,8 +226,7 @@ StudiedEpisode WalkEpisode(const LiveStudy& study, std::uint64_t seed) {
   studied.clairvoyant = Clairvoyant(replanner, truth, study.start, seed, true, 1000);
   studied.reachable = Clairvoyant(replanner, truth, study.start, seed, false, 0) > 0.0;
   const double begin = ThreadSeconds();
-  const auto run = live.clock == "wall" ? RunWallClock : RunLockstep;
-  const Episode episode = run(replanner, &sensor, study.start, {});
+  const Episode episode = Run(replanner, &sensor, study.start, &studied.answers);
   studied.cpu = ThreadSeconds() - begin;
   const TrueWorld seen = truth.Since(episode.waited);
   const EpisodeSummary summary = Summarize(episode, &seen, study.place.robot);

@@ -32,6 +32,14 @@ struct Latency {
   double since_unsafe = 0.0;
 };
 
+/// What an answer of the replanner cost.
+struct Answered {
+  ProposalKind kind = ProposalKind::kSafe;
+  Spent effort;         ///< as counted
+  Spent seconds;        ///< of the processor [s]
+  double asking = 0.0;  ///< in lockstep, the same of it all, with preparing its world [s]
+};
+
 /// What a study wants to know of one random episode.
 struct StudiedEpisode {
   std::uint64_t seed = 0;
@@ -50,6 +58,7 @@ struct StudiedEpisode {
   bool pressed = false;  ///< an obstacle was put or carried against the robot, walking or at rest
   std::vector<Latency> latencies;
   std::vector<double> smoothing;  ///< computing of each walk with other overlaps [s]
+  std::vector<Answered> answers;  ///< all of them
   std::vector<int> begun_meanwhile;
   int stops = 0, safe_stops = 0;  ///< at random times; those that are proved to their rest
   double longest_stop = 0.0;      ///< from a random time to the rest [s]

@@ -142,8 +142,8 @@ TEST_F(HalfStepProofsTest, OfTheSetAreThoseOfTheRobotAlone) {
   EXPECT_FALSE(EndsWithSetElement(shorter.Walk(), 3, set));
   // A first walk proves its first half-step alone: an interval each 70 ms, most of them once.
   constexpr double kIntervals = 200.0;
-  EXPECT_GT(first.effort, 0.0);
-  EXPECT_LT(first.effort, 1e-6 * Work::kInterval * kIntervals);
+  EXPECT_GT(first.effort.all(), 0.0);
+  EXPECT_LT(first.effort.all(), 1e-6 * Work::kInterval * kIntervals);
 }
 
 // Other footsteps behind a half-step leave the walk cut after it as it was, to the bit, so what was

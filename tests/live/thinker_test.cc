@@ -48,7 +48,7 @@ TEST(ThinkerTest, InLockstepAnswersComeAfterTheirEffort) {
   const std::optional<Proposal> answer = thinker.Answer(100.0);
   ASSERT_TRUE(answer);
   EXPECT_EQ(answer->kind, ProposalKind::kSmoothed);
-  const double ready = 0.1 + kPerEffort * answer->effort;
+  const double ready = 0.1 + kPerEffort * answer->effort.all();
   thinker.Ask(walk.situation());
   EXPECT_FALSE(thinker.Answer(ready - 1e-9));
   EXPECT_TRUE(thinker.Answer(ready));
@@ -59,7 +59,7 @@ TEST(ThinkerTest, HurriedItLeavesOutWhatOnlyImproves) {
   const Unsmoothed walk;
   LockstepThinker thinker(walk.replanner, 1);
   thinker.Ask(walk.situation());
-  const double patient = 0.1 + kPerEffort * thinker.Answer(100.0)->effort;
+  const double patient = 0.1 + kPerEffort * thinker.Answer(100.0)->effort.all();
   thinker.Ask(walk.situation());
   thinker.Hurry(0.101);
   EXPECT_FALSE(thinker.Answer(0.1));
