@@ -153,19 +153,17 @@ LegRounding RoundingOfPostures::OfLeg(Side side, const WalkJet& jet, const WalkJ
   const Vector6d missing = twist - J * speeds;
   const double all = speeds.cwiseAbs().sum();
   const double parts = v.segment<3>(foot).norm() + posture.waist_velocity.norm() + rate * lever;
-  // H, and what the angles' errors do to the columns of J, to first order; and all beyond.
-  Matrix6d H = Matrix6d::Zero();
-  double bent_turn = 0.0, bent_place = 0.0;
-  for (Eigen::Index l = 0; l < 5; ++l) {
-    for (Eigen::Index j = l + 1; j < 6; ++j) {
-      const Vector6d change = CrossMotion(J.col(l), J.col(j));
-      H.col(l) += speeds[j] * change;
-      bent_turn += rounding.q[l] * change.head<3>().norm();
-      bent_place += rounding.q[l] * change.tail<3>().norm();
-    }
+  Matrix6d H;
+  Vector6d after = Vector6d::Zero();  // V₆ − V_l
+  for (Eigen::Index l = 5; l >= 0; --l) {
+    H.col(l) = CrossMotion(J.col(l), after);
+    after += speeds[l] * J.col(l);
   }
+  // What the angles' errors do to the columns of J: at most five that each joint turns, by brackets
+  // of screws to first order; and all beyond.
+  const double bent_turn = 5.0 * rounding.q.sum();
   const double beyond = 32.0 * turned * (turned + 64.0 * kU);
-  rounding.of_inverse = left + rows.Of(bent_turn + beyond, bent_place + chain * beyond);
+  rounding.of_inverse = left + rows.Of(bent_turn + beyond, chain * (2.0 * bent_turn + beyond));
   LegRounding::OfSole& of_twist = rounding.twist;
   of_twist.turn = missing.head<3>().norm() + waist.rate + walk.first[foot + 3] + of_axes * all +
                   16.0 * kU * (all + rate + std::abs(v[foot + 3])) + beyond * all;
