@@ -276,7 +276,10 @@ TEST_P(LegNeighbourhoodTest, ThereIsNoProofOfAnIntervalInWhichTheLegIsStretched)
   const double h = 0.01;
   Isometry3d X = LegForwardKinematics(leg, leg.standing_q)[6];
   while (SolveLegIk(leg, X).reach_margin > 0.02 * size_) X.translation().z() -= 1e-3 * size_;
-  const auto proved = [&](const SoleDrift& drift) { return ContinueLeg(leg, X, drift).arrived; };
+  const Vector6d q = SolveLegIk(leg, X).q;
+  const auto proved = [&](const SoleDrift& drift) {
+    return StaysInBranch(leg, X, drift, q, Vector6d::Zero());
+  };
   const double out = 0.05 * size_;  // [m]
   EXPECT_TRUE(proved({}));
   EXPECT_TRUE(proved({.half_width = h, .velocity = {0, 0, -1e-3}, .acceleration = 1e-3}));
@@ -285,6 +288,28 @@ TEST_P(LegNeighbourhoodTest, ThereIsNoProofOfAnIntervalInWhichTheLegIsStretched)
   // A turn on the spot takes the hip's side out of reach of axes that are not vertical.
   EXPECT_FALSE(proved({.half_width = h, .yaw_rate = 3.0 / h}));
   EXPECT_FALSE(proved({.half_width = h, .yaw_acceleration = 6.0 / (h * h)}));
+  // As little where rounding may have done as much, at m or since.
+  const LegRounding::OfSole little{.turn = 1e-9, .place = 1e-9}, much{.turn = 1.0, .place = out};
+  EXPECT_TRUE(proved({.half_width = h, .pose_off = little, .twist_off = little}));
+  EXPECT_FALSE(proved({.pose_off = much}));
+  EXPECT_FALSE(proved({.half_width = h, .twist_off = {.turn = 1.0 / h, .place = out / h}}));
+}
+
+// Angles that may be others than those of the branch are refused: another posture, and where
+// rounding may do more than a box is wider.
+TEST_P(LegNeighbourhoodTest, OnlyAnglesOfTheBranchStayInIt) {
+  const Leg& leg = robot_.legs[0];
+  const Isometry3d X = LegForwardKinematics(leg, leg.standing_q)[6];
+  const Vector6d q = SolveLegIk(leg, X).q, none = Vector6d::Zero();
+  EXPECT_TRUE(StaysInBranch(leg, X, {}, q, none));
+  EXPECT_TRUE(StaysInBranch(leg, X, {}, q, Vector6d::Constant(1e-9)));
+  for (int j = 0; j < 6; ++j) {
+    EXPECT_FALSE(StaysInBranch(leg, X, {}, q + 0.5 * Vector6d::Unit(j), none)) << j;
+    EXPECT_FALSE(StaysInBranch(leg, X, {}, q, 0.5 * Vector6d::Unit(j))) << j;
+    Vector6d unbounded = none;
+    unbounded[j] = HUGE_VAL;
+    EXPECT_FALSE(StaysInBranch(leg, X, {}, q, unbounded)) << j;
+  }
 }
 
 // sup |dV/dt| of V = v + ψ̇ẑ×(about − p), against instants of motions that keep the drift.
