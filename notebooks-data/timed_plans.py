@@ -1,18 +1,18 @@
 #!/usr/bin/env python3
-"""Drawn scenes with carts and doors:
+"""Drawn scenes with carts and doors: timed_plans.py STEP PROGRAM FOLDER timed_plans.csv [COUNT]
 
-    timed_plans.py HALFSTEP FIRST LAST FOLDER > timed_plans.csv
-    timed_plans.py --everywhere HALFSTEP FOLDER timed_plans.csv
-    timed_plans.py --reference STUDY FOLDER timed_plans.csv
+By seeds 1 to COUNT (60): carts that cross the way, a door that opens, a gap that closes. Each STEP
+fills in columns of the table, and goes on where it was stopped; folders stay in FOLDER:
 
-By seeds FIRST to LAST: carts that cross the way, a door that opens, a gap that closes. HRP-2 plans
-among them in time (`processor_s`: what that takes, reading of volumes included), and after all have
-come to rest (`at_rest`: when they rest, and the raw walk from then on; whether it is touched while
-it waits is not looked at). Solved ones are smoothed by dichotomy, certified and verified. Folders
-stay in FOLDER. Exit status 1 when a run is not certified or not verified.
---everywhere fills in a column: planned with obstacles everywhere that they ever are.
---reference fills in two more: when the walk of a brute search in time ends (STUDY:
-timed_reference_study), and its footsteps.
+    plan        HRP-2 plans among them in time; `processor_s` of that, of which about 1.4 s certify
+                the half-steps and read their volumes
+    run         what was planned is smoothed by dichotomy, certified, verified; exit status 1 when
+                one is not
+    at_rest     planned after all have come to rest: when they rest, and the raw walk from then on;
+                whether it is touched while it waits is not looked at
+    everywhere  planned with obstacles everywhere that they ever are
+    reference   when the walk of a brute search in time ends, and its footsteps; PROGRAM is
+                timed_reference_study, and for the other steps halfstep
 """
 import csv
 import json
@@ -132,68 +132,73 @@ def write_configs(seed, obstacles, folder):
         (folder / f"{name}.yaml").write_text(config_of(name, f"{name}_scene.yaml"), encoding="utf-8")
 
 
-def row_of(halfstep, seed, folder):
-    obstacles, kind = obstacles_of(seed)
-    write_configs(seed, obstacles, folder)
-    found, seconds = plan(halfstep, folder / f"moving_{seed}.yaml")
-    waited, _ = plan(halfstep, folder / f"still_{seed}.yaml")
-    row = dict.fromkeys(COLUMNS, "")
-    row |= {"seed": seed, "kind": kind, "status": found["status"], "footsteps": found["footsteps"],
+def plan_step(halfstep, folder, row):
+    obstacles, row["kind"] = obstacles_of(int(row["seed"]))
+    write_configs(row["seed"], obstacles, folder)
+    found, seconds = plan(halfstep, folder / f"moving_{row['seed']}.yaml")
+    (folder / f"found_{row['seed']}.json").write_text(json.dumps(found), encoding="utf-8")
+    row |= {"status": found["status"], "footsteps": found["footsteps"],
             "effort": f"{found['effort']:.2f}", "processor_s": f"{seconds:.2f}"}
-    if waited["status"] == "solved":
-        settles = max(way[-1][0] for _, _, way in obstacles)
-        row["at_rest"] = f"{settles + raw_of(waited):.2f}"
     if found["status"] == "solved":
         raw = raw_of(found)
         row["rest_s"] = f"{raw - 2 * HALF_STEP_S * found['footsteps']:.2f}"
         row["raw_s"] = f"{raw:.2f}"
-        config = folder / f"planned_{seed}.yaml"
-        config.write_text(config_of(f"moving_{seed}", f"moving_{seed}_scene.yaml",
-                                    footsteps_of(found)), encoding="utf-8")
-        smoothed, row["certified"], row["verified"] = run_of(halfstep, config, folder / str(seed))
-        row["smoothed"] = f"{smoothed:.2f}"
-    return row
 
 
-def fill_in(path, columns, of_row):
-    """Writes the file anew after each row whose columns were empty."""
-    with open(path, encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
-    for row in rows:
-        if row[columns[0]]:
-            continue
-        row.update(zip(columns, of_row(row["seed"])))
-        with open(path, "w", encoding="utf-8") as file:
-            table = csv.DictWriter(file, COLUMNS, lineterminator="\n")
-            table.writeheader()
-            table.writerows(rows)
+def run_step(halfstep, folder, row):
+    seed = row["seed"]
+    found = json.loads((folder / f"found_{seed}.json").read_text(encoding="utf-8"))
+    config = folder / f"planned_{seed}.yaml"
+    config.write_text(config_of(f"moving_{seed}", f"moving_{seed}_scene.yaml", footsteps_of(found)),
+                      encoding="utf-8")
+    smoothed, row["certified"], row["verified"] = run_of(halfstep, config, folder / seed)
+    row["smoothed"] = f"{smoothed:.2f}"
+
+
+def at_rest_step(halfstep, folder, row):
+    waited, _ = plan(halfstep, folder / f"still_{row['seed']}.yaml")
+    settles = max(way[-1][0] for _, _, way in obstacles_of(int(row["seed"]))[0])
+    solved = waited["status"] == "solved"
+    row["at_rest"] = f"{settles + raw_of(waited):.2f}" if solved else waited["status"]
+
+
+def everywhere_step(halfstep, folder, row):
+    row["everywhere"] = plan(halfstep, folder / f"moving_{row['seed']}.yaml", "--set",
+                             "planner.moving=everywhere")[0]["status"]
+
+
+def reference_step(study, folder, row):
+    said = subprocess.run([study, folder / f"moving_{row['seed']}.yaml"], check=True,
+                          capture_output=True, text=True).stdout
+    row["reference_s"], row["reference_footsteps"] = said.split()[:2]
+
+
+STEPS = {"plan": ("status", plan_step), "run": ("certified", run_step),
+         "at_rest": ("at_rest", at_rest_step), "everywhere": ("everywhere", everywhere_step),
+         "reference": ("reference_s", reference_step)}
 
 
 def main():
-    if sys.argv[1] == "--everywhere":
-        program, folder, path = sys.argv[2], pathlib.Path(sys.argv[3]), sys.argv[4]
-        fill_in(path, ["everywhere"],
-                lambda seed: [plan(program, folder / f"moving_{seed}.yaml", "--set",
-                                   "planner.moving=everywhere")[0]["status"]])
-        return 0
-    if sys.argv[1] == "--reference":
-        program, folder, path = sys.argv[2], pathlib.Path(sys.argv[3]), sys.argv[4]
-        fill_in(path, ["reference_s", "reference_footsteps"],
-                lambda seed: subprocess.run([program, folder / f"moving_{seed}.yaml"], check=True,
-                                            capture_output=True, text=True).stdout.split()[:2])
-        return 0
-    halfstep, first, last = sys.argv[1], int(sys.argv[2]), int(sys.argv[3])
-    folder = pathlib.Path(sys.argv[4])
+    if len(sys.argv) < 5 or sys.argv[1] not in STEPS:
+        sys.exit(__doc__)
+    column, step = STEPS[sys.argv[1]]
+    program, folder, path = sys.argv[2], pathlib.Path(sys.argv[3]), pathlib.Path(sys.argv[4])
     folder.mkdir(parents=True, exist_ok=True)
-    table = csv.DictWriter(sys.stdout, COLUMNS, lineterminator="\n")
-    table.writeheader()
-    wrong = False
-    for seed in range(first, last + 1):
-        row = row_of(halfstep, seed, folder)
-        wrong = wrong or 0 in (row["certified"], row["verified"])
-        table.writerow(row)
-        sys.stdout.flush()
-    return 1 if wrong else 0
+    count = int(sys.argv[5]) if len(sys.argv) > 5 else 60
+    rows = {str(seed): dict.fromkeys(COLUMNS, "") | {"seed": str(seed)}
+            for seed in range(1, count + 1)}
+    if path.exists():
+        with path.open(encoding="utf-8") as file:
+            rows |= {row["seed"]: row for row in csv.DictReader(file)}
+    for row in rows.values():
+        if row[column] or (column == "certified" and row["status"] != "solved"):
+            continue
+        step(program, folder, row)
+        with path.open("w", encoding="utf-8") as file:
+            table = csv.DictWriter(file, COLUMNS, lineterminator="\n")
+            table.writeheader()
+            table.writerows(rows.values())
+    return int(any(row[key] == "0" for row in rows.values() for key in ("certified", "verified")))
 
 
 if __name__ == "__main__":
