@@ -43,7 +43,7 @@ SampledTimes::Ticks SampledTimes::Starts(Kind kind, int i, Side support, const F
     for (int j = 0; j < std::ssize(samples.X_SBody); ++j) {
       // The last tick stands for all that follow.
       const int first = std::max(0, k - j), last = k == settled ? kTicks - 1 : k - j;
-      if (last < 0 || !free[static_cast<size_t>(last)] ||
+      if (last < 0 || (k < settled && !free[static_cast<size_t>(last)]) ||
           Clears(Nth(samples.X_SBody, j), pose, k)) {
         continue;
       }
