@@ -25,6 +25,8 @@ constexpr double kTurn = 6.8;
 constexpr double kViaHeight = 0.25;  // of HRP-2's half-steps [m]
 constexpr double kRise = 6e-3;    // of a foot before it moves ahead: more than the floor margin [m]
 constexpr double kOfLift = 0.95;  // of the highest place of the swing foot
+constexpr double kOfStance = 0.65;   // width of a sole that is not narrow, HRP-2's and wider ones
+constexpr double kMostNarrow = 3.0;  // what is counted of it
 
 enum class Law {
   kLength,
@@ -32,12 +34,14 @@ enum class Law {
   kAcross,
   kWidth,
   kDuration,
+  kShift,
   kHeight,
   kAside,
   kDelay,
   kSupport,
   kSole,
   kTime,
+  kBothFeet,
   kSpeed,
   kRate,
   kGap
@@ -58,6 +62,13 @@ double DelayToRise(double fraction) {
   return (0.5 - 0.5 * kShift) * high;
 }
 
+// How much longer the ZMP takes from foot to foot than on soles that are as wide for the stance as
+// HRP-2's: the jump sets the robot rocking from edge to edge (notebooks-data/measurements.md,
+// "Robots from their URDF").
+double NarrowOf(const RobotMeasures& robot) {
+  return std::clamp(kOfStance * robot.standing_width / robot.sole_width, 1.0, kMostNarrow);
+}
+
 // The value for a robot of what is `hrp2` for HRP-2.
 double Scaled(Law law, double hrp2, const RobotMeasures& robot) {
   const double length = robot.leg_length / kLegOfHrp2, width = robot.standing_width / kStance;
@@ -72,6 +83,9 @@ double Scaled(Law law, double hrp2, const RobotMeasures& robot) {
       return Rounded(hrp2 * width);
     case Law::kDuration:
       return Rounded(hrp2 * std::max(std::sqrt(length), kTurn / (kDuration * robot.slowest_joint)));
+    case Law::kShift:
+      return Rounded(hrp2 * NarrowOf(robot) *
+                     std::max(std::sqrt(length), kTurn / (kDuration * robot.slowest_joint)));
     case Law::kHeight:
       return Rounded(std::min(hrp2 * length, kOfLift * robot.lift));
     case Law::kAside:
@@ -85,6 +99,8 @@ double Scaled(Law law, double hrp2, const RobotMeasures& robot) {
     case Law::kTime:
     case Law::kSpeed:  // of bodies that fall alike (Froude)
       return Rounded(hrp2 * std::sqrt(length));
+    case Law::kBothFeet:
+      return Rounded(hrp2 * NarrowOf(robot) * std::sqrt(length));
     case Law::kRate:
       return Rounded(hrp2 / std::sqrt(length));
     case Law::kGap:
@@ -104,6 +120,8 @@ std::string FormulaOf(Law law, const std::string& hrp2) {
       return "`" + hrp2 + "` · w/0.21 m";
     case Law::kDuration:
       return "`" + hrp2 + "` · max(√(ℓ/0.705 m), 3.4 rad/s / q̇)";
+    case Law::kShift:
+      return "`" + hrp2 + "` · narrow · max(√(ℓ/0.705 m), 3.4 rad/s / q̇)";
     case Law::kHeight:
       return "min(`" + hrp2 + "` · ℓ/0.705 m, 0.95 lift)";
     case Law::kAside:
@@ -117,6 +135,8 @@ std::string FormulaOf(Law law, const std::string& hrp2) {
     case Law::kTime:
     case Law::kSpeed:
       return "`" + hrp2 + "` · √(ℓ/0.705 m)";
+    case Law::kBothFeet:
+      return "`" + hrp2 + "` · narrow · √(ℓ/0.705 m)";
     case Law::kRate:
       return "`" + hrp2 + "` / √(ℓ/0.705 m)";
     case Law::kGap:
@@ -137,7 +157,7 @@ Law LawOf(ParameterScale scale) {
 std::vector<ScaledDefault> ScaledDefaults() {
   std::vector<ScaledDefault> rows = {
       {"half_step.duration_s", Law::kDuration},
-      {"half_step.zmp_shift_s", Law::kDuration},
+      {"half_step.zmp_shift_s", Law::kShift},
       {"half_step.via_height_m", Law::kHeight},
       {"half_step.foot_delay", Law::kDelay},
       {"half_step.via_lateral_m", Law::kAside},
@@ -165,7 +185,7 @@ std::vector<ScaledDefault> ScaledDefaults() {
       {"smoothing.margins.self_clearance_m", Law::kGap},
       {"smoothing.limits.foot_speed_m_s", Law::kSpeed},
       {"smoothing.limits.foot_yaw_rate_rad_s", Law::kRate},
-      {"smoothing.margins.double_support_s", Law::kTime},
+      {"smoothing.margins.double_support_s", Law::kBothFeet},
   };
   for (const ParameterFamily family : AllParameterFamilies()) {
     for (const ParameterBoundKey& bound : Traits(family).bounds()) {

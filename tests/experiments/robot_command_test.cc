@@ -318,6 +318,16 @@ TEST(ScaledDefaults, GoByTheLegUnlessAKeySaysOtherwise) {
   EXPECT_EQ(config.half_step.foot_delay, 0.115);  // 0.0625 m · S(0.115/0.475) = 6 mm
   EXPECT_DOUBLE_EQ(config.step_set.x_max, 7 * config.step_set.spacing);
   EXPECT_EQ(config.half_step.support_point, 0.0);
+  // On soles of half the width for the stance, the ZMP goes from foot to foot in twice the time.
+  RobotMeasures narrow = half;
+  narrow.sole_width = 0.325 * narrow.standing_width;
+  ScaleDefaults(narrow, &(config = {}));
+  EXPECT_EQ(config.half_step.duration, 1.0);
+  EXPECT_EQ(config.half_step.zmp_shift, 0.1);
+  EXPECT_EQ(config.smoothing.limits.demanded_of(MarginFamily::kDoubleSupport), 0.08);
+  narrow.sole_width *= 0.1;
+  ScaleDefaults(narrow, &(config = {}));
+  EXPECT_EQ(config.half_step.zmp_shift, 0.15);  // and no more than three times
   half.support_point = -0.011;
   half.slowest_joint = 1.7;  // [rad/s]
   ScaleDefaults(half, &(config = {}));
