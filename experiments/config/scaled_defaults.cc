@@ -41,7 +41,6 @@ enum class Law {
   kSupport,
   kSole,
   kTime,
-  kBothFeet,
   kSpeed,
   kRate,
   kGap
@@ -63,8 +62,8 @@ double DelayToRise(double fraction) {
 }
 
 // How much longer the ZMP takes from foot to foot than on soles that are as wide for the stance as
-// HRP-2's: the jump sets the robot rocking from edge to edge (notebooks-data/measurements.md,
-// "Robots from their URDF").
+// HRP-2's: landings tip a robot over the edges of narrow ones, and on both feet it comes to rest
+// (notebooks-data/measurements.md, "Robots from their URDF").
 double NarrowOf(const RobotMeasures& robot) {
   return std::clamp(kOfStance * robot.standing_width / robot.sole_width, 1.0, kMostNarrow);
 }
@@ -99,8 +98,6 @@ double Scaled(Law law, double hrp2, const RobotMeasures& robot) {
     case Law::kTime:
     case Law::kSpeed:  // of bodies that fall alike (Froude)
       return Rounded(hrp2 * std::sqrt(length));
-    case Law::kBothFeet:
-      return Rounded(hrp2 * NarrowOf(robot) * std::sqrt(length));
     case Law::kRate:
       return Rounded(hrp2 / std::sqrt(length));
     case Law::kGap:
@@ -135,8 +132,6 @@ std::string FormulaOf(Law law, const std::string& hrp2) {
     case Law::kTime:
     case Law::kSpeed:
       return "`" + hrp2 + "` · √(ℓ/0.705 m)";
-    case Law::kBothFeet:
-      return "`" + hrp2 + "` · narrow · √(ℓ/0.705 m)";
     case Law::kRate:
       return "`" + hrp2 + "` / √(ℓ/0.705 m)";
     case Law::kGap:
@@ -185,7 +180,7 @@ std::vector<ScaledDefault> ScaledDefaults() {
       {"smoothing.margins.self_clearance_m", Law::kGap},
       {"smoothing.limits.foot_speed_m_s", Law::kSpeed},
       {"smoothing.limits.foot_yaw_rate_rad_s", Law::kRate},
-      {"smoothing.margins.double_support_s", Law::kBothFeet},
+      {"smoothing.margins.double_support_s", Law::kTime},
   };
   for (const ParameterFamily family : AllParameterFamilies()) {
     for (const ParameterBoundKey& bound : Traits(family).bounds()) {

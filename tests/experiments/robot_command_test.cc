@@ -341,7 +341,6 @@ TEST(ScaledDefaults, GoByTheLegUnlessAKeySaysOtherwise) {
   ScaleDefaults(narrow, &(config = {}));
   EXPECT_EQ(config.half_step.duration, 1.0);
   EXPECT_EQ(config.half_step.zmp_shift, 0.1);
-  EXPECT_EQ(config.smoothing.limits.demanded_of(MarginFamily::kDoubleSupport), 0.08);
   narrow.sole_width *= 0.1;
   ScaleDefaults(narrow, &(config = {}));
   EXPECT_EQ(config.half_step.zmp_shift, 0.15);  // and no more than three times
