@@ -5,7 +5,8 @@
 #   tests/run.sh --all     all of release, and debug with AddressSanitizer and UBSan, which leaves out a few slow
 #                          tests, a look for types that have two definitions (-flto -Wodr), and a
 #                          quick look by every fuzz target: before a change lands
-# JOBS: how many compilers at once (2), and one test more at once, since some wait for a clock.
+# JOBS: how many compilers at once (2), and two tests more at once, since many wait for a clock or a
+# disk.
 set -eu
 cd "$(dirname "$0")/.."
 jobs="${JOBS:-2}"
@@ -72,7 +73,7 @@ for preset in $presets; do
   built=$(date +%s)
   except="$all_only"
   [ "$preset" = release ] || except="$release_only"
-  quietly "build/$preset-test.log" ctest --preset "$preset" -j $((jobs + 1)) -E "$except" -LE slurm
+  quietly "build/$preset-test.log" ctest --preset "$preset" -j $((jobs + 2)) -E "$except" -LE slurm
   echo "$preset: $(grep 'tests passed' "build/$preset-test.log"); built in $((built - start)) s," \
     "tested in $(($(date +%s) - built)) s"
   # Tests that this machine cannot do: whole ones, and those within a suite.
