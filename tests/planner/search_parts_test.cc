@@ -3,10 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <random>
-#include <set>
 
 #include "planner/search/footstep_planner.h"
 #include "planner/search/plan_search.h"
