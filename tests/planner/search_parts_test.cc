@@ -8,6 +8,7 @@
 
 #include "planner/search/footstep_planner.h"
 #include "planner/search/plan_search.h"
+#include "planner/search/plan_shortcut.h"
 #include "planner/search/state_buckets.h"
 #include "planner/search/step_graph.h"
 #include "tests/planner/flat_world.h"
