@@ -9,6 +9,7 @@
 #include "experiments/tables/not_covered_json.h"
 #include "smoothing/margins/not_covered_by.h"
 #include "wpg/files/input_error.h"
+#include "wpg/files/partial_sibling.h"
 #include "wpg/files/regular_file.h"
 #include "wpg/files/whole_file.h"
 
@@ -41,6 +42,19 @@ bool ClearIfBarelyBegun(const fs::path& path) {
   return true;
 }
 
+// Makes a folder that is begun, at once: an empty one would be somebody else's.
+void BeginFolder(const fs::path& path) {
+  fs::create_directories(path.parent_path());
+  RemoveAbandonedSiblings(path.parent_path(), path.filename().string());
+  PartialSibling begun(path, PartialSibling::Kind::kFolder);
+  fs::create_directory(begun.path() / kUnfinished);
+  SyncFolder(begun.path() / kUnfinished, path);
+  SyncFolder(begun.path(), path);
+  fs::rename(begun.path(), path);
+  begun.Release();
+  SyncFolder(path.parent_path(), path);
+}
+
 }  // namespace
 
 ReferenceFolder::ReferenceFolder(const fs::path& path, const std::string& manifest)
@@ -54,7 +68,7 @@ ReferenceFolder::ReferenceFolder(const fs::path& path, const std::string& manife
     if (!fs::exists(path_ / kUnfinished)) RefuseFolder(path_, "is finished already");
     return;
   }
-  fs::create_directories(path_ / kUnfinished);
+  if (!fs::exists(path_)) BeginFolder(path_);
   WriteWhole(path_ / "manifest.json", {manifest});
 }
 
