@@ -1,6 +1,8 @@
 #include "experiments/references/reference_folder.h"
 
 #include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <system_error>
 #include <vector>
 
 #include "experiments/about/build_info.h"
@@ -47,10 +49,14 @@ void BeginFolder(const fs::path& path) {
   fs::create_directories(path.parent_path());
   RemoveAbandonedSiblings(path.parent_path(), path.filename().string());
   PartialSibling begun(path, PartialSibling::Kind::kFolder);
-  fs::create_directory(begun.path() / kUnfinished);
-  SyncFolder(begun.path() / kUnfinished, path);
-  SyncFolder(begun.path(), path);
-  fs::rename(begun.path(), path);
+  std::error_code error;
+  fs::create_directory(begun.path() / kUnfinished, error);
+  if (!error) {
+    SyncFolder(begun.path() / kUnfinished, path);
+    SyncFolder(begun.path(), path);
+    fs::rename(begun.path(), path, error);
+  }
+  if (error) throw std::runtime_error(path.string() + ": cannot be made: " + error.message());
   begun.Release();
   SyncFolder(path.parent_path(), path);
 }
