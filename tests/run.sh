@@ -65,7 +65,7 @@ release_only="$release_only|Horizon.WhatIsRefused|Horizon.ProvesStop|FindWhatOne
 release_only="$release_only|OneCharacter|GeneratedRobotPhysics|FindsKnownOptima/nlopt_auglag"
 release_only="$release_only|walks.stand|EveryValue|ATouchIsToldByEverything"
 
-# What .ci/run has no time for: on two cores a build from nothing takes 21 minutes, the tests ten.
+# What .ci/run has no time for: on two cores a build from nothing takes about 17 minutes.
 all_only='^$'
 if [ "$presets" = release ]; then
   export HALFSTEP_FEW_DRAWS=1
