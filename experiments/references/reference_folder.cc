@@ -1,6 +1,8 @@
 #include "experiments/references/reference_folder.h"
 
 #include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <system_error>
 #include <vector>
 
 #include "experiments/about/build_info.h"
@@ -9,6 +11,7 @@
 #include "experiments/tables/not_covered_json.h"
 #include "smoothing/margins/not_covered_by.h"
 #include "wpg/files/input_error.h"
+#include "wpg/files/partial_sibling.h"
 #include "wpg/files/regular_file.h"
 #include "wpg/files/whole_file.h"
 
@@ -41,6 +44,23 @@ bool ClearIfBarelyBegun(const fs::path& path) {
   return true;
 }
 
+// Makes a folder that is begun, at once: an empty one would be somebody else's.
+void BeginFolder(const fs::path& path) {
+  fs::create_directories(path.parent_path());
+  RemoveAbandonedSiblings(path.parent_path(), path.filename().string());
+  PartialSibling begun(path, PartialSibling::Kind::kFolder);
+  std::error_code error;
+  fs::create_directory(begun.path() / kUnfinished, error);
+  if (!error) {
+    SyncFolder(begun.path() / kUnfinished, path);
+    SyncFolder(begun.path(), path);
+    fs::rename(begun.path(), path, error);
+  }
+  if (error) throw std::runtime_error(path.string() + ": cannot be made: " + error.message());
+  begun.Release();
+  SyncFolder(path.parent_path(), path);
+}
+
 }  // namespace
 
 ReferenceFolder::ReferenceFolder(const fs::path& path, const std::string& manifest)
@@ -54,7 +74,7 @@ ReferenceFolder::ReferenceFolder(const fs::path& path, const std::string& manife
     if (!fs::exists(path_ / kUnfinished)) RefuseFolder(path_, "is finished already");
     return;
   }
-  fs::create_directories(path_ / kUnfinished);
+  if (!fs::exists(path_)) BeginFolder(path_);
   WriteWhole(path_ / "manifest.json", {manifest});
 }
 
