@@ -123,11 +123,15 @@ Interval ValueAt(const Curve& f, const Interval& t) {
   return f.at[0] + t * f.at[1] + half * f.at[2] + sixth * f.over[3];
 }
 
+// What both say of one number.
+Interval Both(const Interval& a, const Interval& b) {
+  return {std::max(a.lo, b.lo), std::min(a.hi, b.hi)};
+}
+
 Box ValuesAt(const Lift& lift, const Interval& t) {
   Box q;
   for (size_t i = 0; i < 6; ++i) {
-    const Interval a = ValueAt(lift.q[i], t), b = ValueAt(lift.path[i], t) + lift.E[i];
-    q[i] = {std::max(a.lo, b.lo), std::min(a.hi, b.hi)};
+    q[i] = Both(ValueAt(lift.q[i], t), ValueAt(lift.path[i], t) + lift.E[i]);
   }
   return q;
 }
@@ -169,11 +173,15 @@ Lift Lifted(const Leg& leg, const Given<Curve>& given, double h, const Interval&
   for (size_t i = 0; i < 6; ++i) jets[i].at[0] = path[i].over[0] + E[i];
   AddDerivative<1>(leg, anywhere, along, &jets);
   AddDerivative<2>(leg, anywhere, along, &jets);
-  AddDerivative<3>(leg, anywhere, along, &jets);
-  for (size_t i = 0; i < 6; ++i) {
-    at[i].h = h;
-    at[i].over[3] = jets[i].over[3];
-    at[i].Enclose();
+  // What follows of lower derivatives from those at m is narrower, and the third is then, too.
+  for (int round = 0; round < (h > 0.0 ? 3 : 1); ++round) {
+    AddDerivative<3>(leg, anywhere, along, &jets);
+    for (size_t i = 0; i < 6; ++i) {
+      at[i].h = h;
+      at[i].over[3] = jets[i].over[3];
+      at[i].Enclose();
+      for (size_t k = 0; k < 3; ++k) jets[i].at[k] = Both(jets[i].at[k], at[i].over[k]);
+    }
   }
   return lift;
 }

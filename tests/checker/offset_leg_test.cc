@@ -141,8 +141,8 @@ TEST(OffsetLegs, DerivativesAreThoseOfDifferences) {
   }
 }
 
-// Continued from itself a leg has the posture of the closed form. Bounds are as narrow but for few,
-// near stretched knees, where derivatives are those of longer parts of time.
+// Continued from itself a leg has the posture of the closed form, and each of its bounds is at most
+// six times as wide as the widest of the closed form's six.
 TEST(OffsetLegs, WithoutOffsetIsTheClosedForm) {
   std::mt19937_64 random(5);
   for (const char* name : {"hrp2", "bison", "wren"}) {
@@ -154,7 +154,7 @@ TEST(OffsetLegs, WithoutOffsetIsTheClosedForm) {
     for (Leg& leg : continued.robot.legs) leg.met = {Leg(leg)};
     const Moving closed(run.walk), newton(continued);
     const auto width = [](const Interval& x) { return x.hi - x.lo; };
-    int found = 0, wide = 0;
+    int found = 0;
     for (int i = 0; i < 30; ++i) {
       const double end = closed.motion.end();
       const double from = std::uniform_real_distribution<double>(0.0, 0.9 * end)(random);
@@ -169,12 +169,20 @@ TEST(OffsetLegs, WithoutOffsetIsTheClosedForm) {
           continue;
         }
         ++found;
+        std::array<double, 3> widest{};
+        for (const Curve& q : its.q) {
+          for (size_t order = 0; order < 3; ++order) {
+            widest[order] = std::max(widest[order], width(q.over[order]));
+          }
+        }
         for (size_t j = 0; j < 6; ++j) {
           const Curve &a = its.q[j], &b = other.leg(side).q[j];
           for (size_t order = 0; order < 3; ++order) {
             EXPECT_TRUE(Holds(a.at[order], b.at[order])) << name << ", " << from;
             EXPECT_TRUE(Holds(a.over[order], b.over[order])) << name << ", " << from;
-            if (width(b.over[order]) > 4.0 * width(a.over[order]) + 2e-3) ++wide;
+            EXPECT_LE(width(b.over[order]), 6.0 * widest[order] + 2e-3)
+                << name << ", joint " << j << ", order " << order << ", " << from << " … " << to
+                << ", " << one.reach(side).over[0].lo << " m from stretched";
           }
           EXPECT_TRUE(Holds(a.over[3], b.over[3])) << name << ", " << from;
         }
@@ -182,7 +190,6 @@ TEST(OffsetLegs, WithoutOffsetIsTheClosedForm) {
       }
     }
     EXPECT_GT(found, 45);
-    EXPECT_LT(wide, found * 18 / 20);
     EXPECT_TRUE(CheckRun(continued).proved());
   }
 }
