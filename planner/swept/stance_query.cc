@@ -39,7 +39,7 @@ class FewYaws {
 }  // namespace
 
 void StanceQuery::Reach::Add(const Bounds& bounds, double away) {
-  if (bounds.root == nullptr) return;
+  if (bounds.empty) return;
   const Vector3d most = bounds.middle.cwiseAbs() + bounds.half;
   around = std::max(around, away + most.head<2>().norm());
   lowest = std::min(lowest, bounds.middle.z() - bounds.half.z());
@@ -159,7 +159,7 @@ void StanceQuery::Answer(const Foothold& X_WS, const Reach& reach, bool one_fram
   for (size_t i = 0; i < pairs_.size(); ++i) {
     if (i + kAhead < pairs_.size()) {
       const Placed& ahead = Nth(placed_, pairs_[i + kAhead].half_step);
-      __builtin_prefetch(ahead.bounds.root);
+      __builtin_prefetch(&ahead.bounds.root);
       __builtin_prefetch(&*ahead.volume);
     }
     const auto [half_step, near] = pairs_[i];
