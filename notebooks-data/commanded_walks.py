@@ -26,7 +26,7 @@ import subprocess
 import sys
 
 GRAVITY = 9.81
-PEAK = {}  # of a command's memory [MB]
+USED = {}  # by a command: its memory and processor time
 HEAD = """name: {name}
 robot: hrp2
 scene: none
@@ -69,14 +69,23 @@ def random_script(seconds, draw):
     return "".join(lines) + walk(seconds - 12, (0, 0, 0))
 
 
+def run_and_measure(name, command):
+    """Also its memory [MB] and processor time [s], in USED."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    run = subprocess.run(command, capture_output=True, text=True)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)  # ru_maxrss: of the largest so far
+    seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    USED[name] = f"{name} {seconds:.0f} s of processor time, at most {after.ru_maxrss / 1e3:.0f} MB"
+    return run
+
+
 def live(halfstep, folder, name, script, longest):
     folder.mkdir(parents=True, exist_ok=True)
     config = folder / f"{name}.yaml"
     config.write_text(HEAD.format(name=name, longest=longest) + script)
     out = folder / name
-    run = subprocess.run([halfstep, "live", str(config), "--out", str(out), "--overwrite", "--json"],
-                         capture_output=True, text=True)
-    PEAK["live"] = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1e3
+    run = run_and_measure("live", [halfstep, "live", str(config), "--out", str(out), "--overwrite",
+                                   "--json"])
     if run.returncode not in (0, 1) or not run.stdout:
         sys.exit(f"{name}: {run.stderr}")
     return out, json.loads(run.stdout)
@@ -165,7 +174,7 @@ def at_random(halfstep, minutes, folder, seed):
                    for row in begun)
     difference = largest_difference(out, plans)
     first, last = lipm_residuals(out, float(summary["duration_s"]))
-    verified = subprocess.run([halfstep, "verify", str(out)], capture_output=True, text=True)
+    verified = run_and_measure("verify", [halfstep, "verify", str(out)])
     refused = sum(e["event"] == "refused" for e in events)
     unsafe = sum(e["event"] == "unsafe" for e in events)
     record = sum(file.stat().st_size for file in out.rglob("*") if file.is_file())
@@ -173,7 +182,7 @@ def at_random(halfstep, minutes, folder, seed):
           f"{len(plans)} walks, {refused} refused, {unsafe} times blocked; {unproved} half-steps "
           f"without a grant; hand-overs differ by {difference:.3g}; LIPM residual {first:.3g} m in "
           f"the first minute, {last:.3g} m in the last; {sum(sizes) / 1e6:.1f} MB of walks, "
-          f"{record / 1e6:.1f} MB in all; at most {PEAK['live']:.0f} MB of memory; "
+          f"{record / 1e6:.1f} MB in all; {USED['live']}; {USED['verify']}; "
           f"{'verified' if verified.returncode == 0 else verified.stdout + verified.stderr}",
           file=sys.stderr)
     promised = summary["promise"]["status"] == "kept" and verified.returncode == 0

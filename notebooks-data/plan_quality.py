@@ -2,10 +2,12 @@
 """How good plans are: plan_quality.py HALFSTEP COUNT FOLDER [WAY...] > plan_quality.csv
                          plan_quality.py --table plan_quality.csv...
 
-Problems by seeds 1 to COUNT: rooms, cylinders, fences and islands as `halfstep draw` and the shipped
-scenes have them. Each is planned in each WAY and smoothed by dichotomy; run folders stay in FOLDER.
-A row a plan. --table: how much longer, in seconds of the smoothed walk, a way's plans are than the
-best plan of all rows of that problem.
+Problems by seeds 1 to COUNT (or FIRST-LAST): rooms, cylinders, fences and islands as `halfstep draw`
+and the shipped scenes have them. Each is planned in each WAY and smoothed by dichotomy; run folders
+stay in FOLDER. A row a plan: the work that was counted, also until the first plan (of `default`),
+and the processor time of `halfstep plan`, of which about 1.4 s certify the half-steps and read their
+volumes. --table: how much longer, in seconds of the smoothed walk, a way's plans are than the best
+plan of all rows of that problem.
 """
 import concurrent.futures
 import csv
@@ -14,12 +16,13 @@ import math
 import os
 import pathlib
 import random
+import re
 import statistics
 import subprocess
 import sys
 
-COLUMNS = ["seed", "scene", "way", "status", "footsteps", "nodes", "queries", "effort", "time_s",
-           "smoothed_s"]
+COLUMNS = ["seed", "scene", "way", "status", "footsteps", "nodes", "queries", "first_effort",
+           "effort", "processor_s", "smoothed_s"]
 # Ten times the work of a default that ends after 500 nodes without a gain, and of one that ends
 # after an effort.
 TEN = ["planner.unimproved_nodes=5000"]
@@ -81,37 +84,55 @@ def problem(halfstep, seed):
         angle = draw.uniform(-0.4, 0.4) if kind == "fence" else draw.uniform(-math.pi, math.pi)
         x, y, room = 1.6 * math.cos(angle), 1.6 * math.sin(angle), "[-2.2, -2.2, 2.2, 2.2]"
         start[2] = draw.uniform(-0.5, 0.5)
-    config = (f"name: {kind}_{seed}\nrobot: hrp2\nscene: scene_{seed}.yaml\n"
-              f"goal: {{x_m: {x:.3f}, y_m: {y:.3f}, radius_m: 0.15}}\nstart:\n")
+    config = f"name: {kind}_{seed}\nrobot: hrp2\nscene: scene_{seed}.yaml\nstart:\n"
     for foot, side in (("left", 0.1), ("right", -0.1)):
         config += (f"  {foot}: {{x_m: {start[0] - side * math.sin(start[2]):.4f}, y_m: "
                    f"{start[1] + side * math.cos(start[2]):.4f}, "
                    f"yaw_deg: {math.degrees(start[2]):.4f}}}\n")
     config += (f"seed: {seed}\nplanner: {{workspace_m: {room}}}\n"
                "smoothing: {methods: [dichotomy]}\noutput: {period_s: 0.1}\n")
-    return kind, scene, config
+    return kind, scene, config, f"goal: {{x_m: {x:.3f}, y_m: {y:.3f}, radius_m: 0.15}}\n"
+
+
+def plan(halfstep, config, keys):
+    """What `halfstep plan` prints, and the processor time that it took."""
+    command = [halfstep, "plan", str(config)]
+    for key in keys:
+        command += ["--set", key]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+                          text=True) as process:
+        said = process.stdout.read()
+        _, _, used = os.wait4(process.pid, 0)
+        process.returncode = 0
+    return said, f"{used.ru_utime + used.ru_stime:.3f}"
 
 
 def row_of(halfstep, folder, seed, way):
-    kind, scene, config = problem(halfstep, seed)
+    kind, scene, config, goal = problem(halfstep, seed)
     path = folder / f"{way}_{seed}"
     path.mkdir(parents=True, exist_ok=True)
     (path / f"scene_{seed}.yaml").write_text(scene)
-    (path / "config.yaml").write_text(config)
-    command = [halfstep, "run", str(path / "config.yaml"), "--overwrite", "--quiet", "--out",
-               str(path / "run")]
-    for key in WAYS[way]:
-        command += ["--set", key]
-    subprocess.run(command, capture_output=True, text=True)
-    plan = json.loads((path / "run" / "plan.json").read_text())
+    (path / "config.yaml").write_text(config + goal)
+    def work(said):
+        return re.search(r", (\d+) nodes, (\d+) queries .* effort ([0-9.]+)", said).groups()
+
+    first = ""
+    if way == "default":
+        first = work(plan(halfstep, path / "config.yaml", ["planner.unimproved_nodes=0"])[0])[2]
+    said, seconds = plan(halfstep, path / "config.yaml", WAYS[way])
+    if not said:
+        return [seed, kind, way, "no plan", "", "", "", first, "", seconds, ""]
+    nodes, queries, effort = work(said)
+    (path / "planned.yaml").write_text(config + said)
+    subprocess.run([halfstep, "run", str(path / "planned.yaml"), "--overwrite", "--quiet", "--out",
+                    str(path / "run")], capture_output=True, text=True)
     smoothed = ""
-    if plan["status"] == "solved":
-        with open(path / "run" / "summary.csv") as file:
-            for row in csv.DictReader(file):
-                if row["method"] == "dichotomy" and row["certified"] == "true":
-                    smoothed = row["duration_s"]
-    return [seed, kind, way, plan["status"], plan["footsteps"] if plan["status"] == "solved" else "",
-            plan["nodes"], plan["queries"], plan["effort"], plan["plan_wall_s"], smoothed]
+    with open(path / "run" / "summary.csv") as file:
+        for row in csv.DictReader(file):
+            if row["method"] == "dichotomy" and row["certified"] == "true":
+                smoothed = row["duration_s"]
+    return [seed, kind, way, "solved", len(re.findall(r"foot: (?:left|right)", said)), nodes, queries,
+            first, effort, seconds, smoothed]
 
 
 def table(files):
@@ -123,17 +144,23 @@ def table(files):
             seconds = float(row["smoothed_s"])
             best[row["seed"]] = min(seconds, best.get(row["seed"], math.inf))
             found.setdefault(row["way"], {})[row["seed"]] = seconds
-            work.setdefault(row["way"], []).append((float(row["effort"]), float(row["time_s"])))
-    print("| way | plans | median | worst | > 1 % | > 5 % | effort, median (largest) | planning [s] |")
-    print("|---|---|---|---|---|---|---|---|")
+            work.setdefault(row["way"], []).append(
+                [float(row[key] or "nan") for key in ("effort", "first_effort", "processor_s")])
+    def cell(times):
+        times = [t for t in times if not math.isnan(t)]
+        return f"{statistics.median(times):.2f} ({max(times):.2f})" if times else "–"
+
+    print("| way | plans | median | worst | > 1 % | > 5 % | effort, median (largest) | "
+          "of the first plan | processor time [s] |")
+    print("|---|---|---|---|---|---|---|---|---|")
     for way, plans in found.items():
         over = [100.0 * (seconds / best[seed] - 1.0) for seed, seconds in plans.items()]
-        effort, time = zip(*work[way])
+        effort, first, time = zip(*work[way])
         more = [100.0 * sum(o > limit for o in over) / len(over) for limit in (1.0, 5.0)]
         print(f"| `{way}` | {len(plans)}/{len(best)} | {statistics.median(over):.2f} % | "
               f"{max(over):.1f} % | {more[0]:.0f} % | {more[1]:.0f} % | "
               f"{statistics.median(effort):.3f} ({max(effort):.3f}) | "
-              f"{statistics.median(time):.2f} ({max(time):.2f}) |")
+              f"{cell(first)} | {cell(time)} |")
 
 
 def main():
@@ -142,8 +169,9 @@ def main():
         return
     if len(sys.argv) < 4 or any(way not in WAYS for way in sys.argv[4:]):
         sys.exit(__doc__ + "Ways: " + ", ".join(WAYS))
-    halfstep, count, folder = sys.argv[1], int(sys.argv[2]), pathlib.Path(sys.argv[3])
-    tasks = [(seed, way) for seed in range(1, count + 1) for way in sys.argv[4:] or WAYS]
+    halfstep, count, folder = sys.argv[1], sys.argv[2].split("-"), pathlib.Path(sys.argv[3])
+    seeds = range(int(count[0]) if len(count) > 1 else 1, int(count[-1]) + 1)
+    tasks = [(seed, way) for seed in seeds for way in sys.argv[4:] or WAYS]
     writer = csv.writer(sys.stdout, lineterminator="\n")
     writer.writerow(COLUMNS)
     with concurrent.futures.ThreadPoolExecutor(int(os.environ.get("JOBS", "1"))) as pool:

@@ -1,21 +1,32 @@
 #!/usr/bin/env python3
-"""Drawn scenes with carts and doors: timed_plans.py HALFSTEP COUNT FOLDER [RUNS] > timed_plans.csv
+"""Drawn scenes with carts and doors: timed_plans.py STEP PROGRAM FOLDER timed_plans.csv [COUNT]
 
-By seeds 1 to COUNT: carts that cross the way, a door that opens, a gap that closes. HRP-2 plans
-among them in time, with obstacles everywhere that they ever are, and after all have come to rest
-(`at_rest`: when they rest, and the raw walk from then on; whether it is touched while it waits is
-not looked at). The first RUNS (all) solved ones are smoothed by dichotomy, certified and verified.
-Folders stay in FOLDER. Exit status 1 when a run is not certified or not verified.
+By seeds 1 to COUNT (60): carts that cross the way, a door that opens, a gap that closes. Each STEP
+fills in columns of the table, and goes on where it was stopped; folders stay in FOLDER:
+
+    plan        HRP-2 plans among them in time; `processor_s` of that, of which about 1.4 s certify
+                the half-steps and read their volumes
+    run         what was planned is smoothed by dichotomy, certified, verified; exit status 1 when
+                one is not
+    at_rest     planned after all have come to rest: when they rest, and the raw walk from then on;
+                whether it is touched while it waits is not looked at
+    everywhere  planned with obstacles everywhere that they ever are
+    reference   among carts (a door asks for turned half-steps, which that search does not take):
+                when the walk of a brute search in time ends, and its footsteps; PROGRAM is
+                timed_reference_study, and for the other steps halfstep
 """
 import csv
 import json
+import math
+import os
 import pathlib
 import random
 import subprocess
 import sys
 
-COLUMNS = ["seed", "kind", "status", "footsteps", "rest_s", "raw_s", "effort", "everywhere",
-           "at_rest", "smoothed", "certified", "verified"]
+COLUMNS = ["seed", "kind", "status", "footsteps", "rest_s", "raw_s", "effort", "processor_s",
+           "everywhere", "at_rest", "smoothed", "certified", "verified", "reference_s",
+           "reference_footsteps"]
 KINDS = ["carts", "door", "gap"]
 HALF_STEP_S = 2.0
 
@@ -66,23 +77,39 @@ def scene_of(obstacles):
     return "obstacles:\n" + "".join(box(*one) for one in obstacles)
 
 
-def config_of(name, scene):
+def config_of(name, scene, way="goal: {x_m: 1.6, y_m: 0, radius_m: 0.15}"):
     return f"""name: {name}
 robot: hrp2
 scene: {scene}
 start:
   left:  {{x_m: 0, y_m: 0.105}}
   right: {{x_m: 0, y_m: -0.105}}
-goal: {{x_m: 1.6, y_m: 0, radius_m: 0.15}}
+{way}
 planner: {{workspace_m: [-0.5, -0.7, 2.0, 1.5]}}
 smoothing: {{methods: [dichotomy]}}
 """
 
 
 def plan(halfstep, config, *more):
-    done = subprocess.run([halfstep, "plan", config, "--json", *more], stdout=subprocess.PIPE,
-                          stderr=subprocess.DEVNULL, check=False, text=True)
-    return json.loads(done.stdout)
+    """What the program says, and the processor time that it took."""
+    with subprocess.Popen([halfstep, "plan", config, "--json", *more], stdout=subprocess.PIPE,
+                          stderr=subprocess.DEVNULL, text=True) as process:
+        said = process.stdout.read()
+        _, _, used = os.wait4(process.pid, 0)
+        process.returncode = 0
+    return json.loads(said), used.ru_utime + used.ru_stime
+
+
+def footsteps_of(found):
+    text = "footsteps:"
+    for place in found["places"]:
+        text += (f"\n  - {{foot: {place['foot']}, x_m: {place['x_m']!r}, y_m: {place['y_m']!r}, "
+                 f"yaw_deg: {math.degrees(place['yaw_rad'])!r}")
+        for key in ("rest_s", "rest_on_one_foot_s"):
+            if place.get(key, 0) > 0:
+                text += f", {key}: {place[key]!r}"
+        text += "}"
+    return text
 
 
 def raw_of(found):
@@ -99,39 +126,82 @@ def run_of(halfstep, config, folder):
     return float(rows["dichotomy"]["duration_s"]), int(certified), int(verified)
 
 
+def write_configs(seed, obstacles, folder):
+    still = [(name, size, [(0, *way[-1][1:])]) for name, size, way in obstacles]
+    for name, scene in [(f"moving_{seed}", obstacles), (f"still_{seed}", still)]:
+        (folder / f"{name}_scene.yaml").write_text(scene_of(scene), encoding="utf-8")
+        (folder / f"{name}.yaml").write_text(config_of(name, f"{name}_scene.yaml"), encoding="utf-8")
+
+
+def plan_step(halfstep, folder, row):
+    obstacles, row["kind"] = obstacles_of(int(row["seed"]))
+    write_configs(row["seed"], obstacles, folder)
+    found, seconds = plan(halfstep, folder / f"moving_{row['seed']}.yaml")
+    (folder / f"found_{row['seed']}.json").write_text(json.dumps(found), encoding="utf-8")
+    row |= {"status": found["status"], "footsteps": found["footsteps"],
+            "effort": f"{found['effort']:.2f}", "processor_s": f"{seconds:.2f}"}
+    if found["status"] == "solved":
+        raw = raw_of(found)
+        row["rest_s"] = f"{raw - 2 * HALF_STEP_S * found['footsteps']:.2f}"
+        row["raw_s"] = f"{raw:.2f}"
+
+
+def run_step(halfstep, folder, row):
+    seed = row["seed"]
+    found = json.loads((folder / f"found_{seed}.json").read_text(encoding="utf-8"))
+    config = folder / f"planned_{seed}.yaml"
+    config.write_text(config_of(f"moving_{seed}", f"moving_{seed}_scene.yaml", footsteps_of(found)),
+                      encoding="utf-8")
+    smoothed, row["certified"], row["verified"] = run_of(halfstep, config, folder / seed)
+    row["smoothed"] = f"{smoothed:.2f}"
+
+
+def at_rest_step(halfstep, folder, row):
+    waited, _ = plan(halfstep, folder / f"still_{row['seed']}.yaml")
+    settles = max(way[-1][0] for _, _, way in obstacles_of(int(row["seed"]))[0])
+    solved = waited["status"] == "solved"
+    row["at_rest"] = f"{settles + raw_of(waited):.2f}" if solved else waited["status"]
+
+
+def everywhere_step(halfstep, folder, row):
+    row["everywhere"] = plan(halfstep, folder / f"moving_{row['seed']}.yaml", "--set",
+                             "planner.moving=everywhere")[0]["status"]
+
+
+def reference_step(study, folder, row):
+    said = subprocess.run([study, folder / f"moving_{row['seed']}.yaml"], check=True,
+                          capture_output=True, text=True).stdout
+    row["reference_s"], row["reference_footsteps"] = said.split()[:2]
+
+
+STEPS = {"plan": ("status", plan_step), "run": ("certified", run_step),
+         "at_rest": ("at_rest", at_rest_step), "everywhere": ("everywhere", everywhere_step),
+         "reference": ("reference_s", reference_step)}
+
+
 def main():
-    halfstep, count, folder = sys.argv[1], int(sys.argv[2]), pathlib.Path(sys.argv[3])
-    runs = int(sys.argv[4]) if len(sys.argv) > 4 else count
+    if len(sys.argv) < 5 or sys.argv[1] not in STEPS:
+        sys.exit(__doc__)
+    column, step = STEPS[sys.argv[1]]
+    program, folder, path = sys.argv[2], pathlib.Path(sys.argv[3]), pathlib.Path(sys.argv[4])
     folder.mkdir(parents=True, exist_ok=True)
-    table = csv.writer(sys.stdout, lineterminator="\n")
-    table.writerow(COLUMNS)
-    wrong = False
-    for seed in range(1, count + 1):
-        obstacles, kind = obstacles_of(seed)
-        still = [(name, size, [(0, *way[-1][1:])]) for name, size, way in obstacles]
-        for name, scene in [(f"moving_{seed}", obstacles), (f"still_{seed}", still)]:
-            (folder / f"{name}_scene.yaml").write_text(scene_of(scene), encoding="utf-8")
-            (folder / f"{name}.yaml").write_text(config_of(name, f"{name}_scene.yaml"), encoding="utf-8")
-        config = folder / f"moving_{seed}.yaml"
-        found = plan(halfstep, config)
-        everywhere = plan(halfstep, config, "--set", "planner.moving=everywhere")
-        waited = plan(halfstep, folder / f"still_{seed}.yaml")
-        row = [seed, kind, found["status"], found["footsteps"], "", "", f"{found['effort']:.2f}",
-               everywhere["status"], ""]
-        if waited["status"] == "solved":
-            settles = max(way[-1][0] for _, _, way in obstacles)
-            row[-1] = f"{settles + raw_of(waited):.2f}"
-        if found["status"] == "solved":
-            raw = raw_of(found)
-            row[4:6] = [f"{raw - 2 * HALF_STEP_S * found['footsteps']:.2f}", f"{raw:.2f}"]
-            if runs > 0:
-                runs -= 1
-                smoothed, certified, verified = run_of(halfstep, config, folder / str(seed))
-                row += [f"{smoothed:.2f}", certified, verified]
-                wrong = wrong or not certified or not verified
-        table.writerow(row + [""] * (len(COLUMNS) - len(row)))
-        sys.stdout.flush()
-    return 1 if wrong else 0
+    count = int(sys.argv[5]) if len(sys.argv) > 5 else 60
+    rows = {str(seed): dict.fromkeys(COLUMNS, "") | {"seed": str(seed)}
+            for seed in range(1, count + 1)}
+    if path.exists():
+        with path.open(encoding="utf-8") as file:
+            rows |= {row["seed"]: row for row in csv.DictReader(file)}
+    for row in rows.values():
+        if row[column] or (column == "certified" and row["status"] != "solved"):
+            continue
+        if column == "reference_s" and row["kind"] != "carts":
+            continue
+        step(program, folder, row)
+        with path.open("w", encoding="utf-8") as file:
+            table = csv.DictWriter(file, COLUMNS, lineterminator="\n")
+            table.writeheader()
+            table.writerows(rows.values())
+    return int(any(row[key] == "0" for row in rows.values() for key in ("certified", "verified")))
 
 
 if __name__ == "__main__":

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <stdlib.h>
-
 #include <filesystem>
 #include <fstream>
 #include <set>
@@ -15,15 +13,8 @@ namespace halfstep {
 /// A new empty folder, which goes with the object.
 class TemporaryFolder {
  public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "halfstep_test_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make " + name);
-    path_ = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
+  TemporaryFolder();
+  ~TemporaryFolder();
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
@@ -34,37 +25,13 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-inline std::string ReadText(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::runtime_error("cannot open " + path.string());
-  std::ostringstream text;
-  text << file.rdbuf();
-  return std::move(text).str();
-}
-
+/// All of a file; throws std::runtime_error when it cannot be opened.
+std::string ReadText(const std::filesystem::path& path);
 /// Writes a text and returns its path.
-inline std::string WriteText(const std::filesystem::path& path, const std::string& text) {
-  std::filesystem::create_directories(path.parent_path());
-  std::ofstream(path, std::ios::binary) << text;
-  return path.string();
-}
-
+std::string WriteText(const std::filesystem::path& path, const std::string& text);
 /// Names of what a folder holds, hidden ones too.
-inline std::set<std::string> NamesIn(const std::filesystem::path& folder) {
-  std::set<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    names.insert(entry.path().filename().string());
-  }
-  return names;
-}
-
+std::set<std::string> NamesIn(const std::filesystem::path& folder);
 /// Paths of all regular files below a folder, relative to it.
-inline std::set<std::string> FilesBelow(const std::filesystem::path& folder) {
-  std::set<std::string> files;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
-    if (entry.is_regular_file()) files.insert(entry.path().lexically_relative(folder).string());
-  }
-  return files;
-}
+std::set<std::string> FilesBelow(const std::filesystem::path& folder);
 
 }  // namespace halfstep

@@ -155,7 +155,7 @@ TrajectoryCheck CheckWalk(const WalkMotion& motion, const RobotModel& robot, con
   std::optional<TubeLoss> tube;
   if (certificate.tube) tube.emplace(*certificate.tube, robot);
   if (tube && !scene.ground->Solids().empty()) {
-    throw InputError({"the certificate is of a tube over solid ground (valid here: one level)"});
+    throw InputError({"the certificate is of a tube over solid ground, of which there is none"});
   }
   verify::CertificateText asked = certificate;
   for (size_t f = 0; tube && f < verify::kNumFamilies; ++f) {
@@ -186,6 +186,7 @@ TrajectoryCheck CheckWalk(const WalkMotion& motion, const RobotModel& robot, con
     check.stopped = progress && !progress(knots[i + 1] / motion.end());
   }
   proof.Finish();
+  hints->in_parts = std::ranges::any_of(statements.all(), &WalkStatement::in_parts);
   for (size_t f = 0; f < verify::kNumFamilies; ++f) {
     const auto family = static_cast<verify::Family>(f);
     const bool known = family != verify::kOwn;

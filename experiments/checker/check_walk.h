@@ -19,8 +19,8 @@ namespace halfstep::checker {
 /// `not_covered`. `crouch`: how far the waist is kept below where the robot file has it [m].
 /// `progress(done)`, done ∈ [0, 1], says whether to go on. `hints`: where directions that were
 /// found are noted, or those that are told. With a tube every motion in it keeps what was demanded
-/// before the tube raised it. Throws InputError for scenes of which nothing can be said here: maps,
-/// hollow meshes. Source: experiments/check.md.
+/// before the tube raised it. Throws InputError for a tube over solid ground, which no certificate
+/// is of. Source: experiments/check.md.
 TrajectoryCheck CheckWalk(const WalkMotion& motion, const RobotModel& robot, const Scene& scene,
                           const verify::CertificateText& certificate, double crouch,
                           const std::function<bool(double done)>& progress = {},

@@ -125,36 +125,14 @@ WalkTables LastWalk(const verify::EpisodeText& episode) {
 
 }  // namespace
 
-WalkRun ReadEpisodeRun(const std::string& folder, const std::string& robot_file,
-                       const std::string& scene_file) {
-  const fs::path root(folder);
-  const std::string path = (root / "manifest.json").string();
-  const verify::EpisodeManifest manifest =
-      verify::ReadEpisodeManifest(path, verify::ReadBytes(path));
-  if (manifest.walks < 1) throw InputError({folder + ": nothing was walked"});
-  const LiveConfig config = LoadLiveConfig((root / "config.yaml").string(), {});
-  const ExperimentConfig& experiment = config.experiment;
-  WalkRun run;
+WalkRun RunOf(const verify::EpisodeToProve& of) {
+  const verify::EpisodeText& episode = of.episode;
+  WalkRun run{.robot = of.robot, .scene = of.scene, .certificate = of.demands};
+  run.certificate.demanded[verify::kOwn] = verify::kNotDemanded;
   run.whole = false;
-  run.robot = verify::WithAccelerations(
-      verify::FindRobot({"robot", root, {robot_file, RobotPath(experiment)}, manifest.robot_sha256})
-          .input,
-      experiment.smoothing.assumed_acceleration);
-  if (const auto scene = ScenePath(experiment)) {
-    run.scene =
-        verify::FindScene({"scene", root, {scene_file, *scene}, manifest.scene_sha256}).input;
-  }
-  run.scene = WithSpareBoxes(std::move(run.scene), config.live);
-  verify::Findings findings;
-  run.certificate = verify::DemandsOf(experiment.smoothing.limits, &findings);
-  const verify::EpisodeText episode =
-      verify::ReadEpisode(root, static_cast<size_t>(manifest.walks));
-  verify::CheckEpisodeNumbers(episode, run.scene, &findings);
-  if (findings.disagreements() > 0) throw InputError(findings.reasons());
-  const verify::HalfStep half_step = verify::HalfStepOf(experiment.half_step);
-  run.crouch = half_step.crouch;
+  run.crouch = of.form.crouch;
   run.tables = LastWalk(episode);
-  run.tables.planned = half_step.form;
+  run.tables.planned = of.form.form;
   run.tables.com_height = Interval(run.robot.com_height) - Interval(run.crouch);
   run.tables.crouch = run.crouch;
   std::set<int> near;
@@ -184,7 +162,38 @@ WalkRun ReadEpisodeRun(const std::string& folder, const std::string& robot_file,
     }
     run.branches.push_back(std::move(branch));
   }
-  run.certificate.demanded[verify::kOwn] = verify::kNotDemanded;
+  return run;
+}
+
+WalkRun ReadEpisodeRun(const std::string& folder, const std::string& robot_file,
+                       const std::string& scene_file) {
+  const fs::path root(folder);
+  const std::string path = (root / "manifest.json").string();
+  const verify::EpisodeManifest manifest =
+      verify::ReadEpisodeManifest(path, verify::ReadBytes(path));
+  if (manifest.walks < 1) throw InputError({folder + ": nothing was walked"});
+  const LiveConfig config = LoadLiveConfig((root / "config.yaml").string(), {});
+  const ExperimentConfig& experiment = config.experiment;
+  const RobotModel robot = verify::WithAccelerations(
+      verify::FindRobot({"robot", root, {robot_file, RobotPath(experiment)}, manifest.robot_sha256})
+          .input,
+      experiment.smoothing.assumed_acceleration);
+  Scene scene;
+  if (const auto named = ScenePath(experiment)) {
+    scene = verify::FindScene({"scene", root, {scene_file, *named}, manifest.scene_sha256}).input;
+  }
+  scene = WithSpareBoxes(std::move(scene), config.live);
+  verify::Findings findings;
+  const verify::CertificateText demands = verify::DemandsOf(experiment.smoothing.limits, &findings);
+  const verify::EpisodeText episode =
+      verify::ReadEpisode(root, static_cast<size_t>(manifest.walks));
+  verify::CheckEpisodeNumbers(episode, scene, &findings);
+  if (findings.disagreements() > 0) throw InputError(findings.reasons());
+  WalkRun run = RunOf({.robot = robot,
+                       .scene = scene,
+                       .demands = demands,
+                       .form = verify::HalfStepOf(experiment.half_step),
+                       .episode = episode});
   run.not_covered = SentencesOf(manifest.not_covered);
   for (const char* const line :
        {"whether walks, worlds, grants and times belong together, and trajectory.csv (`halfstep "

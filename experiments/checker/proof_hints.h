@@ -18,6 +18,8 @@ struct ProofHints {
   bool told = false;               ///< all that there are; else those that are found are noted
   std::vector<double> times = {};  ///< ends of the intervals that sufficed [s], increasing
   std::map<Statement, Directions> directions = {};  ///< along which bodies are apart
+  bool in_parts =
+      false;  ///< an obstacle was taken by its triangles, of which nothing is handed over
 
   /// The direction at a time; 0: none is told.
   static Eigen::Vector3d At(const Directions& of, double t) {

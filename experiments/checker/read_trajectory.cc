@@ -6,6 +6,7 @@
 #include "experiments/tables/csv_reader.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/number_text.h"
+#include "wpg/files/suggestion.h"
 #include "wpg/files/text.h"
 #include "wpg/files/yaml_node.h"
 #include "wpg/geometry/rotation.h"
@@ -138,10 +139,41 @@ class Collected {
   std::map<std::string, std::vector<double>> rows_[3], pose_;
 };
 
+// Of a first line that does not begin with a time's name.
+[[noreturn]] void RefuseFirstLine(const std::string& path, const std::vector<std::string>& cells,
+                                  const JointNames& names) {
+  const std::string line = path + ":1";
+  const bool numbers = std::ranges::all_of(cells, [](const std::string& cell) {
+    return ParseNumber(cell).kind == NumberText::Kind::kNumber;
+  });
+  if (numbers) {
+    constexpr size_t kPose = 7;  // numbers of a root's position and quaternion
+    const size_t count = cells.size(), joints = names.moving.size();
+    std::string as_many;
+    for (const auto& [other, what] :
+         {std::pair<size_t, std::string>{0, ""}, {kPose, " and 7 for the root's pose"}}) {
+      if (count != joints + other && count != joints + other + 1) continue;
+      as_many = Formatted(": one for each of the robot's %zu joints", joints) + what +
+                (count == joints + other ? ", without a time" : ", and a time");
+    }
+    const std::string first = names.moving.empty() ? "NAME" : names.moving.front();
+    Refuse(line, Formatted("begins with %zu numbers in place of the columns' names", count) +
+                     as_many + " (valid: a first line like t_s," + first +
+                     ",…: a time, joints, and where the root moves base_x_m, base_y_m, base_z_m, "
+                     "base_qw, base_qx, base_qy, base_qz, in any order; joints: " +
+                     Joined(names.moving) + ")");
+  }
+  if (cells.size() == 1 && cells[0].find_first_of(";\t ") != std::string::npos) {
+    Refuse(line, "is one column, " + Quote(cells[0]) + " (valid: commas between columns)");
+  }
+  Refuse(line,
+         "the first column is no time, but " + Quote(cells[0]) + " (valid: t_s, t, time, time_s)");
+}
+
 Trajectory FromCsv(const std::string& path, const JointNames& names) {
   const CsvTable table = ReadCsv(path);
-  if (table.header.empty() || std::ranges::find(kTimes, table.header[0]) == std::end(kTimes)) {
-    Refuse(path, "the first column is no time (valid: t_s, t, time, time_s)");
+  if (std::ranges::find(kTimes, table.header.at(0)) == std::end(kTimes)) {
+    RefuseFirstLine(path, table.header, names);
   }
   Collected all(path, names);
   for (size_t i = 1; i < table.header.size(); ++i) {

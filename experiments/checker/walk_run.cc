@@ -27,8 +27,7 @@ constexpr double kTwiceRounded = 1e-9;  // times that are computed twice [s]
 
 // t_{i+1} = t_i + T_i − Δ_i, with the overlaps where there are any; half_steps.csv has to agree.
 std::vector<Interval> StartsOf(const std::vector<verify::HalfStepRow>& rows,
-                               const std::optional<std::vector<verify::OverlapRow>>& overlaps,
-                               const std::string& path) {
+                               const std::optional<std::vector<verify::OverlapRow>>& overlaps) {
   std::vector<Interval> starts;
   for (size_t i = 0; i < rows.size(); ++i) {
     if (i > 0 && overlaps && i <= overlaps->size()) {
@@ -38,8 +37,8 @@ std::vector<Interval> StartsOf(const std::vector<verify::HalfStepRow>& rows,
       starts.emplace_back(i > 0 && !overlaps ? rows[i].start : 0.0);
     }
     if (std::abs(starts[i].Middle() - rows[i].start) <= kTwiceRounded) continue;
-    throw InputError(
-        {path + Formatted(": half-step %zu does not begin where overlaps.csv has it", i + 1)});
+    throw InputError({Formatted(
+        "half_steps.csv: half-step %zu does not begin where overlaps.csv has it", i + 1)});
   }
   return starts;
 }
@@ -91,55 +90,72 @@ WalkRun ReadWalkRun(const std::string& run, const std::string& method,
   const fs::path root(run), folder = root / method;
   const auto path = [](const fs::path& in, const char* name) { return (in / name).string(); };
   if (method.empty()) return ReadEpisodeRun(run, robot_file, scene_file);
-  WalkRun walk;
+  std::vector<InputFile> files;
   const auto read = [&](const auto& reader, const fs::path& in, const char* name) {
     const std::string text = ReadBytes(path(in, name));
-    walk.files.push_back(RecordOf(path(in, name), text));
+    files.push_back(RecordOf(path(in, name), text));
     return reader(path(in, name), text);
   };
-  walk.certificate = read(verify::ReadCertificateJson, folder, "certificate.json");
+  const verify::CertificateText certificate =
+      read(verify::ReadCertificateJson, folder, "certificate.json");
   const verify::RunManifest manifest = read(verify::ReadManifest, root, "manifest.json");
   const ExperimentConfig config = LoadConfig(path(root, "config.yaml"), {});
-  RobotModel robot =
+  const RobotModel robot = verify::WithAccelerations(
       verify::FindRobot({"robot",
                          root,
-                         {robot_file, RobotPath(config), root / walk.certificate.robot},
+                         {robot_file, RobotPath(config), root / certificate.robot},
                          manifest.robot_sha256})
-          .input;
-  walk.robot = verify::WithAccelerations(std::move(robot), walk.certificate.joint_acceleration);
-  if (const auto scene = ScenePath(config)) {
-    walk.scene = verify::FindScene({"scene",
-                                    root,
-                                    {scene_file, *scene, root / walk.certificate.scene},
-                                    manifest.scene_sha256})
-                     .input;
+          .input,
+      certificate.joint_acceleration);
+  Scene scene;
+  if (const auto named = ScenePath(config)) {
+    scene =
+        verify::FindScene(
+            {"scene", root, {scene_file, *named, root / certificate.scene}, manifest.scene_sha256})
+            .input;
   }
-  walk.files.push_back(RecordOf(path(root, "config.yaml"), ReadBytes(path(root, "config.yaml"))));
-  for (const auto* files : {&walk.robot.files, &walk.scene.files}) {
-    walk.files.insert(walk.files.end(), files->begin(), files->end());
-  }
-  walk.tables.footsteps = read(verify::ReadFootsteps, root, "footsteps.csv");
-  walk.tables.half_steps = read(verify::ReadHalfSteps, folder, "half_steps.csv");
-  const HalfStepConfig& form = config.half_step;
-  walk.crouch = walk.tables.crouch = form.crouch;
-  walk.tables.com_height = Interval(walk.robot.com_height) - Interval(walk.crouch);
-  walk.tables.planned = verify::HalfStepOf(form).form;
+  files.push_back(RecordOf(path(root, "config.yaml"), ReadBytes(path(root, "config.yaml"))));
+  files.insert(files.end(), robot.files.begin(), robot.files.end());
+  files.insert(files.end(), scene.files.begin(), scene.files.end());
+  const auto footsteps = read(verify::ReadFootsteps, root, "footsteps.csv");
+  const auto half_steps = read(verify::ReadHalfSteps, folder, "half_steps.csv");
   std::optional<std::vector<verify::OverlapRow>> overlaps;
   if (fs::exists(folder / "overlaps.csv")) {
     overlaps = read(verify::ReadOverlaps, folder, "overlaps.csv");
-    walk.overlaps.emplace();
-    for (const verify::OverlapRow& row : *overlaps) walk.overlaps->push_back(row.overlap);
   }
-  walk.tables.starts = StartsOf(walk.tables.half_steps, overlaps, path(folder, "half_steps.csv"));
-  const std::string& branches = config.smoothing.stop_branches;
-  for (size_t k = 0; branches != "none" && k + 1 < walk.tables.starts.size(); ++k) {
-    if (branches == "down" && k % 2 == 0) continue;
-    walk.branches.push_back(
-        {Formatted("stopped after half-step %zu", k + 1), k, walk.tables.starts[k + 1].lo});
-  }
+  WalkRun walk = RunOf({.robot = robot,
+                        .scene = scene,
+                        .certificate = certificate,
+                        .form = verify::HalfStepOf(config.half_step),
+                        .footsteps = footsteps,
+                        .half_steps = half_steps,
+                        .overlaps = overlaps,
+                        .stop_branches = config.smoothing.stop_branches});
+  walk.files = std::move(files);
   walk.not_covered = SentencesOf(walk.certificate.not_covered);
   walk.not_covered.push_back(
       "whether the files of the run belong together, and trajectory.csv (`halfstep verify`)");
+  return walk;
+}
+
+WalkRun RunOf(const verify::WalkToProve& of) {
+  WalkRun walk{.robot = of.robot, .scene = of.scene, .certificate = of.certificate};
+  walk.crouch = of.form.crouch;
+  walk.tables = {.footsteps = of.footsteps,
+                 .half_steps = of.half_steps,
+                 .starts = StartsOf(of.half_steps, of.overlaps),
+                 .planned = of.form.form,
+                 .com_height = Interval(of.robot.com_height) - Interval(walk.crouch),
+                 .crouch = walk.crouch};
+  if (of.overlaps) {
+    walk.overlaps.emplace();
+    for (const verify::OverlapRow& row : *of.overlaps) walk.overlaps->push_back(row.overlap);
+  }
+  const std::vector<Interval>& starts = walk.tables.starts;
+  for (size_t k = 0; of.stop_branches != "none" && k + 1 < starts.size(); ++k) {
+    if (of.stop_branches == "down" && k % 2 == 0) continue;
+    walk.branches.push_back({Formatted("stopped after half-step %zu", k + 1), k, starts[k + 1].lo});
+  }
   return walk;
 }
 

@@ -10,6 +10,7 @@
 #include "experiments/checker/proof_hints.h"
 #include "experiments/checker/walk_motion.h"
 #include "experiments/verify/certificate_text.h"
+#include "experiments/verify/walk_prover.h"
 #include "planner/scene/scene.h"
 #include "wpg/robot/robot_model.h"
 
@@ -25,14 +26,14 @@ struct StopBranch {
 
 /// A walk of a run or an episode, and what is demanded of it.
 struct WalkRun {
-  WalkTables tables;                                 ///< that describe it
-  RobotModel robot;                                  ///< that walks
-  Scene scene;                                       ///< among what
-  verify::CertificateText certificate;               ///< what is demanded; its rows are not read
+  WalkTables tables = {};                            ///< that describe it
+  RobotModel robot = {};                             ///< that walks
+  Scene scene = {};                                  ///< among what
+  verify::CertificateText certificate = {};          ///< what is demanded; its rows are not read
   double crouch = 0.0;                               ///< [m]
   bool whole = true;                                 ///< whether it is asked about itself
   std::vector<StopBranch> branches = {};             ///< of which the same is demanded
-  std::vector<std::string> not_covered;              ///< sentences on what is not looked at
+  std::vector<std::string> not_covered = {};         ///< sentences on what is not looked at
   std::optional<std::vector<double>> overlaps = {};  ///< [s]; none: `starts` are as planned
   std::vector<InputFile> files = {};                 ///< that a run's walk was read from
 };
@@ -48,9 +49,14 @@ std::vector<std::string> CertifiedMethods(const std::string& run,
 /// tables that disagree on when half-steps begin.
 WalkRun ReadWalkRun(const std::string& run, const std::string& method,
                     const std::string& robot_file = "", const std::string& scene_file = "");
+/// The walk of a method's tables, and the stop branches that are demanded. Throws InputError as
+/// above.
+WalkRun RunOf(const verify::WalkToProve& of);
 /// That of an episode: what was executed from when a half-step began until the next one did is the
 /// beginning of the last walk, cut after it, in the world of its grant. Source:
 /// experiments/episodes.md.
+WalkRun RunOf(const verify::EpisodeToProve& of);
+/// The same of its folder.
 WalkRun ReadEpisodeRun(const std::string& folder, const std::string& robot_file,
                        const std::string& scene_file);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "experiments/checker/check_trajectory.h"
+#include "experiments/checker/robot_motion.h"
 #include "experiments/checker/separation.h"
 #include "wpg/nth.h"
 #include "wpg/robot/sole_outline.h"
@@ -26,66 +27,6 @@ Kept Inside(const std::vector<SupportEdge<N>>& support) {
   Kept kept = kDoesNotCount;
   for (const SupportEdge<N>& edge : support) kept = Least(kept, Of(edge.inside));
   return kept;
-}
-
-Frame Over(const FrameIn<Curve>& X) {
-  Frame frame;
-  for (size_t i = 0; i < 3; ++i) {
-    for (size_t k = 0; k < 3; ++k) frame.R[i][k] = X.R[i][k].over[0];
-    frame.p[i] = X.p[i].over[0];
-  }
-  return frame;
-}
-Eigen::Isometry3d About(const FrameIn<Curve>& X) {
-  Eigen::Isometry3d about = Eigen::Isometry3d::Identity();
-  for (size_t i = 0; i < 3; ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
-    for (size_t k = 0; k < 3; ++k) {
-      about.linear()(row, static_cast<Eigen::Index>(k)) = X.R[i][k].at[0].Middle();
-    }
-    about.translation()[row] = X.p[i].at[0].Middle();
-  }
-  return about;
-}
-
-// The frame of an obstacle on an interval that holds no time of a waypoint: it goes straight from
-// one to the next, and turns steadily about the vertical.
-FrameIn<Curve> PlaceOf(const Obstacle& obstacle, const WalkState& state) {
-  FrameIn<Curve> X_WO = FrameOf<Curve>(obstacle.X_WO);
-  if (obstacle.motion.waypoints.empty()) return X_WO;
-  ObstacleMotion::Waypoint from{.t = 0.0, .translation = obstacle.X_WO.translation()};
-  for (const ObstacleMotion::Waypoint& to : obstacle.motion.waypoints) {
-    if (to.t <= state.middle()) {
-      from = to;
-      continue;
-    }
-    const Interval rate = Interval(1.0) / (Interval(to.t) - Interval(from.t));
-    Curve share;
-    share.h = state.h();
-    share.at = {(Interval(state.middle()) - Interval(from.t)) * rate, rate, 0.0};
-    share.Enclose();
-    const auto between = [&](double a, double b) {
-      return Curve(a) + (Interval(b) - Interval(a)) * share;
-    };
-    const auto [s, c] = SinCosOf(between(from.yaw, to.yaw));
-    X_WO = TurnAbout(Eigen::Vector3d::UnitZ(), s, c) * X_WO;
-    for (Eigen::Index i = 0; i < 3; ++i) {
-      Nth(X_WO.p, i) = between(from.translation[i], to.translation[i]);
-    }
-    return X_WO;
-  }
-  // At the last one.
-  const auto [s, c] = SinCosOf(Curve(from.yaw));
-  X_WO = TurnAbout(Eigen::Vector3d::UnitZ(), s, c) * X_WO;
-  X_WO.p = VectorOf<Curve>(from.translation);
-  return X_WO;
-}
-
-// How far a point of it may be from there: error + speed·min(|t − t_m|, horizon) [m].
-double FarthestAway(const ObstacleMotion& motion, const WalkState& state) {
-  if (motion.speed == 0.0) return motion.error;
-  const double since = Above(std::abs(state.middle() - motion.measured_at)) + state.h();
-  return Above(motion.error + Above(motion.speed * std::min(Above(since), motion.horizon)));
 }
 
 }  // namespace
@@ -115,12 +56,13 @@ Kept WalkStatements::Apart(const Placed& a, const Placed& b, double demanded,
   const double spheres = (between - Interval(a.shape.radius) - Interval(b.shape.radius)).lo;
   if (spheres >= demanded) return {spheres, spheres};
   const FrameIn<Curve> X_AB = a.X_W.Inverse() * b.X_W;
-  const Frame over = Over(X_AB);
+  const Frame over = FrameOver(X_AB);
   const double known =
       direction->isZero() ? -kInfinity : GapAlong(*direction, a.shape, Frame(), b.shape, over);
   if (known >= demanded) return {known, known};
   if (told) {
-    const Eigen::Isometry3d X_WA = About(a.X_W), X_WB = About(b.X_W);
+    const Eigen::Isometry3d X_WA = MiddleOf(FrameOver(a.X_W, true)),
+                            X_WB = MiddleOf(FrameOver(b.X_W, true));
     const double far = (X_WB * b.shape.center - X_WA * a.shape.center).norm();
     const Kept kept{std::max(spheres, known), far - a.shape.radius - b.shape.radius};
     if (direction->isZero()) return {kept.bound, kept.value, true};
@@ -128,7 +70,8 @@ Kept WalkStatements::Apart(const Placed& a, const Placed& b, double demanded,
     return {kept.bound,
             std::max(kept.value, GapAlong(*direction, a.shape, Frame(), b.shape, there))};
   }
-  const SeparationHint hint = HintOf(a.shape, Eigen::Isometry3d::Identity(), b.shape, About(X_AB));
+  const SeparationHint hint =
+      HintOf(a.shape, Eigen::Isometry3d::Identity(), b.shape, MiddleOf(FrameOver(X_AB, true)));
   *direction = hint.direction;
   return {std::max(known, GapAlong(hint.direction, a.shape, Frame(), b.shape, over)),
           hint.distance};
@@ -174,7 +117,11 @@ WalkStatements::WalkStatements(const RobotModel& robot, const Scene& scene,
           k);
     }
   }
-  for (const Obstacle& obstacle : scene.obstacles) obstacles_.push_back(BodyOfObstacle(obstacle));
+  for (const Obstacle& obstacle : scene.obstacles) {
+    const auto* const mesh = std::get_if<TriangleMesh>(&obstacle.shape);
+    meshes_.push_back(mesh != nullptr ? std::make_unique<MeshTree>(*mesh) : nullptr);
+    obstacles_.push_back(mesh != nullptr ? meshes_.back()->Around() : BodyOfObstacle(obstacle));
+  }
   for (const GroundSolid& solid : solids) {
     obstacles_.push_back(PrismOver(solid.polygon, solid.bottom, solid.top));
   }
@@ -317,21 +264,12 @@ Kept WalkStatements::OfBodies(WalkStatement* statement, WalkState* state) const 
     const Kept kept = FromSolid(statement, moving);
     return below ? Kept{kept.bound, kInfinity, kept.hint_missing} : kept;
   }
-  if (statement->family == verify::kClearance) {
-    const Obstacle& obstacle = scene_.obstacles[statement->b];
-    const ConvexBody& shape = obstacles_[statement->b];
-    const FrameIn<Curve> X_WO = PlaceOf(obstacle, *state);
-    const double away = FarthestAway(obstacle.motion, *state);
-    const Kept kept =
-        Apart({shape, X_WO, CenterAt(X_WO, shape)}, moving, Above(statement->demanded + away),
-              &statement->direction, statement->told);
-    return {checker::Below(kept.bound - away), kept.value - away, kept.hint_missing};
-  }
+  if (statement->family == verify::kClearance) return FromObstacle(statement, moving, *state);
   const double lowest = (moving.center[2] - Interval(body.shape.radius)).lo;
   if (lowest >= statement->demanded) return {lowest, lowest};
-  const Eigen::Isometry3d about = About(moving.X_W);
+  const Eigen::Isometry3d about = MiddleOf(FrameOver(moving.X_W, true));
   const Eigen::Vector3d down = about.linear().transpose() * -Eigen::Vector3d::UnitZ();
-  return {LeastAlong(Eigen::Vector3d::UnitZ(), body.shape, Over(moving.X_W)),
+  return {LeastAlong(Eigen::Vector3d::UnitZ(), body.shape, FrameOver(moving.X_W)),
           (about * SupportPoint(body.shape, down)).z()};
 }
 

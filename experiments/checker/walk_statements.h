@@ -1,10 +1,12 @@
 #pragma once
 
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "experiments/checker/interval_proof.h"
+#include "experiments/checker/mesh_tree.h"
 #include "experiments/checker/walk_state.h"
 #include "experiments/verify/certificate_text.h"
 #include "planner/scene/scene.h"
@@ -41,6 +43,7 @@ struct WalkStatement {
   size_t a = 0, b = 0;
   Eigen::Vector3d direction{0, 0, 0};  ///< along which two bodies were separated last; 0: none
   bool told = false;                   ///< whether by others, so that no other one is looked for
+  bool in_parts = false;               ///< it took an obstacle's triangles, not its hull
 };
 
 /// A convex polygon (2×n) as a flat body in the plane z = 0, or an upright prism.
@@ -52,7 +55,7 @@ Vector CenterAt(const FrameIn<Curve>& X_W, const ConvexBody& body);
 /// Statements of a robot among obstacles, and how to look at them.
 class WalkStatements {
  public:
-  /// Borrows all but the obstacles' bodies. Throws InputError for obstacles that are no solids.
+  /// Borrows all but the obstacles' bodies.
   WalkStatements(const RobotModel& robot, const Scene& scene,
                  const verify::CertificateText& certificate);
 
@@ -76,6 +79,9 @@ class WalkStatements {
   // The solid of the ground that a clearance is from, or null.
   const GroundSolid* SolidOf(const WalkStatement& statement) const;
   Kept FromSolid(WalkStatement* statement, const Placed& moving) const;
+  Kept FromObstacle(WalkStatement* statement, const Placed& moving, const WalkState& state) const;
+  Kept FromMesh(WalkStatement* statement, const FrameIn<Curve>& X_WO, const Placed& moving,
+                double demanded) const;
   Kept OfJoint(const WalkStatement& statement, WalkState* state) const;
   Kept OfBodies(WalkStatement* statement, WalkState* state) const;
   Kept Friction(WalkState* state) const;
@@ -84,8 +90,9 @@ class WalkStatements {
   const RobotModel& robot_;
   const Scene& scene_;
   const verify::CertificateText& certificate_;
-  std::vector<ConvexBody> obstacles_;  ///< and the solids of the ground
-  ConvexBody foot_;                    ///< seen from above, in its sole's plane
+  std::vector<ConvexBody> obstacles_;  ///< and the solids of the ground; of meshes what is around
+  std::vector<std::unique_ptr<MeshTree>> meshes_;  ///< by obstacle; null: it is convex
+  ConvexBody foot_;                                ///< seen from above, in its sole's plane
   std::vector<WalkStatement> all_;
 };
 

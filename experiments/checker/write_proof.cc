@@ -221,6 +221,9 @@ std::string ProofText(const ProofFile& proof, const std::vector<std::string>& no
       })) {
     throw InputError({"--proof: the waist changes its height (valid here: one `crouch_m`)"});
   }
+  if (proof.hints.in_parts) {
+    throw InputError({"--proof: a mesh is kept off by its triangles (valid here: by its hull)"});
+  }
   if (walk.certificate.tube) {
     throw InputError({"--proof: the certificate is of a tube (valid here: of the walk alone)"});
   }

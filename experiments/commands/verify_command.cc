@@ -4,6 +4,7 @@
 #include <iostream>
 #include <memory>
 
+#include "experiments/checker/prove_walk.h"
 #include "experiments/commands/command_line.h"
 #include "experiments/verify/verification_json.h"
 
@@ -59,6 +60,7 @@ ExitStatus StatusOf(const std::vector<verify::MethodVerification>& results) {
 
 CommandAction DeclareVerify(CLI::App* app, const Toolbox& tools) {
   const auto options = std::make_shared<verify::VerifyOptions>();
+  options->prove = checker::ProverOfWalks();
   options->tools = tools;
   const auto quiet = std::make_shared<bool>(false), verbose = std::make_shared<bool>(false),
              json = std::make_shared<bool>(false);

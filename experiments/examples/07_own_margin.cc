@@ -10,9 +10,11 @@ class ComSpeed : public OwnStatement {
   std::string name() const override { return "CoM's speed"; }
   double scale() const override { return 0.1; }  // [m/s]
   double Value(Instant* at) const override { return 0.3 - Velocity(at->jet()).norm(); }
-  // The speed changes no more than the largest acceleration times half of the interval.
+  // The speed changes no more than the largest acceleration times half of the interval, and what
+  // rounding did to it at the midpoint.
   double Change(const MarginInterval& interval) const override {
-    return interval.motion.half_width * interval.motion.second.segment<2>(kComX).norm();
+    const IntervalMotion& motion = interval.motion;
+    return motion.half_width * motion.second.segment<2>(kComX).norm() + Velocity(motion.off).norm();
   }
   std::vector<double> Slopes(Instant* at,
                              const std::vector<WalkSensitivity>& along) const override {

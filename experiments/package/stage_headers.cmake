@@ -11,7 +11,8 @@ foreach(folder wpg planner opt smoothing experiments)
   file(GLOB_RECURSE headers RELATIVE ${SOURCE} ${SOURCE}/${folder}/*.h)
   foreach(header ${headers})
     if(NOT header MATCHES "^experiments/(examples|python|schema|report/node_modules)/" AND
-        NOT header STREQUAL "smoothing/methods/accepted_in_parts.h")  # no way around Propose()
+        NOT header STREQUAL "smoothing/methods/accepted_in_parts.h" AND  # no way around Propose()
+        NOT header STREQUAL "wpg/files/json_instances.h")  # of our precompiled headers alone
       stage(${SOURCE}/${header} ${header})
     endif()
   endforeach()

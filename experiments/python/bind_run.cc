@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "experiments/checker/prove_walk.h"
 #include "experiments/config/folder_name.h"
 #include "experiments/python/bindings.h"
 #include "experiments/python/long_call.h"
@@ -60,8 +61,11 @@ py::list VerifyFolder(const Toolbox& tools, const std::string& run,
                       const std::optional<double>& tolerance) {
   std::vector<verify::MethodVerification> results;
   CallLong(py::none(), [&](const LongCallHooks&) {
-    results =
-        verify::VerifyRun({.run = run, .method = method, .tolerance = tolerance, .tools = tools});
+    results = verify::VerifyRun({.prove = checker::ProverOfWalks(),
+                                 .run = run,
+                                 .method = method,
+                                 .tolerance = tolerance,
+                                 .tools = tools});
   });
   py::list list;
   for (const verify::MethodVerification& result : results) {

@@ -5,7 +5,9 @@
 
 #include "experiments/run/certified_half_steps.h"
 #include "experiments/run/failure_words.h"
+#include "experiments/run/level_crossings.h"
 #include "experiments/run/plan_inputs.h"
+#include "experiments/run/sloping_tops.h"
 #include "experiments/run/watched_query.h"
 #include "planner/search/planners.h"
 #include "planner/swept/obstacle_times.h"
@@ -152,6 +154,9 @@ void SearchFootsteps(const FootstepSearch& search, const Place& place, const Pla
       const Place asked = walk->in_time ? Resting(place) : place;
       Say(FindBlocking(watched, *search.volumes, asked, evaluator.limits()), walk);
       if (watched_times) Say(MovingWords(*watched_times, *search.volumes, place), walk);
+    }
+    for (const std::string& slopes : SlopingTops(place.robot, place.scene, AreaOf(config, place))) {
+      Say(slopes, walk);
     }
   }
   ExplainNoPlan(place, evaluator, walk);

@@ -86,7 +86,7 @@ class StanceSearch {
   }
 
   // Bends the knees less while the joints' limits keep the swing foot low, or the joints give too
-  // little torque.
+  // little torque; but not so little that legs no longer reach in six steps.
   void Bend() {
     StandingRequest& standing = draft_.standing;
     if (request_.bend > 0.0) {
@@ -95,6 +95,7 @@ class StanceSearch {
     }
     // Less bend than the first that makes a robot; where none does, more.
     double best = 0.9, highest = -1.0;
+    bool best_reaches = false;
     std::optional<InputError> refusal;
     for (const double bend : {0.9, 0.92, 0.94, 0.96, 0.98, 0.87, 0.84, 0.8, 0.75}) {
       if (bend < 0.9 && highest >= 0.0) break;
@@ -110,11 +111,14 @@ class StanceSearch {
       const RobotMeasures measures = MeasuresOf(*model);
       const bool high_enough = measures.lift >= kLeastLift * measures.leg_length;
       if (highest >= kLeastLift * measures.leg_length && !high_enough) break;
+      const bool reaches = IsWithinReach(*model, SixSteps(*model, DefaultHalfStep(*model)));
+      if (best_reaches && !reaches) break;
       const double torque = LeastTorqueMargin(*model);
       const bool strong_enough = torque >= 0.0;
-      if (measures.lift > highest || strong_enough) {
+      if (measures.lift > highest || strong_enough || (reaches && !best_reaches)) {
         highest = measures.lift;
         best = bend;
+        best_reaches = reaches;
       }
       if (high_enough && strong_enough) break;
       draft_.why_bend =

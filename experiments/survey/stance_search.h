@@ -28,11 +28,12 @@ std::vector<Posture> WalkedPostures(const RobotModel& robot);
 
 /// Finds how a draft, whose legs and soles are known, stands, so that the legs touch neither each
 /// other nor the trunk in six steps: cuts meshes into parts whose hulls touch; bends the knees less
-/// where the joints' limits keep the swing foot low or their torques are too small; and takes the
-/// narrowest stance at which a swing foot that is lifted by default, or down to 0.6 of that, is
-/// enough, or else the best one; and moves the support points where the whole robot's ZMP comes too
-/// near to the soles' edges. Writes posture, stance, lift, parts and support point into the draft,
-/// with their reasons, and returns the model. Throws InputError when the robot cannot stand.
+/// where the joints' limits keep the swing foot low or their torques are too small, as long as the
+/// legs reach in six steps; and takes the narrowest stance at which a swing foot that is lifted by
+/// default, or down to 0.6 of that, is enough, or else the best one; and moves the support points
+/// where the whole robot's ZMP comes too near to the soles' edges. Writes posture, stance, lift,
+/// parts and support point into the draft, with their reasons, and returns the model. Throws
+/// InputError when the robot cannot stand.
 RobotModel StandApart(const StanceRequest& request, const std::array<Leg, 2>& legs,
                       const std::vector<RobotBody>& bodies, RobotDraft* draft);
 

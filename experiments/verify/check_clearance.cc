@@ -104,7 +104,7 @@ bool Keep(const std::vector<double>& path, const PlayedMotion& motion, const std
 void CheckClearances(const PlayedMotion& motion, const CertificateText& certificate,
                      double tolerance, Distances* distances, Findings* findings) {
   const RobotModel& robot = motion.robot();
-  Check obstacles("clearance", "m", certificate.demanded[kClearance], tolerance);
+  Check obstacles("played, clearance", "m", certificate.demanded[kClearance], tolerance);
   for (size_t b = 0; b < robot.bodies.size() && distances->num_obstacles() > 0; ++b) {
     const std::vector<double> of_body = motion.PathInWorld(robot.bodies[b]);
     // Between two rows no point of the body is farther from the first than its path is long; what
@@ -139,7 +139,7 @@ void CheckClearances(const PlayedMotion& motion, const CertificateText& certific
   }
   obstacles.Conclude(findings);
 
-  Check selves("self clearance", "m", certificate.demanded[kSelfClearance], tolerance);
+  Check selves("played, self clearance", "m", certificate.demanded[kSelfClearance], tolerance);
   std::vector<std::vector<double>> paths;
   for (const RobotBody& body : robot.bodies) paths.push_back(motion.PathInWaist(body));
   for (const auto& [i, j] : robot.self_pairs) {

@@ -1,26 +1,19 @@
 #pragma once
 
 #include "experiments/verify/certificate_text.h"
-#include "experiments/verify/described_walk.h"
 #include "experiments/verify/distances.h"
 #include "experiments/verify/findings.h"
 #include "experiments/verify/played_motion.h"
+#include "experiments/verify/walk_floor.h"
 
 namespace halfstep::verify {
 
-/// Whether the robot that plays rows of `walk` straight keeps every margin that `certificate`
-/// demands, less `tolerance` [m] (VerifyOptions). Where it does not, the walk itself is asked, at
-/// rows 1 ms apart: if it agrees, the rows are too coarse (Findings::TooCoarse), and else it is a
-/// disagreement.
-void CheckPlayed(const PlayedMotion& motion, const DescribedWalk& walk,
+/// Whether the robot that plays rows straight keeps clearances, and its bodies their heights above
+/// the floor, less `tolerance` [m] (VerifyOptions). Where it does not, they are too coarse
+/// (Findings::TooCoarse): that the walk keeps all of it is proved. Other margins of that motion are
+/// those of its rows or means of what the walk has between them.
+void CheckPlayed(const PlayedMotion& motion, const WalkFloor& floor,
                  const CertificateText& certificate, double tolerance, Distances* distances,
                  Findings* findings);
-
-/// The same for what half-step `last`, from 0, leads to: the walk that ends with it, from where
-/// that half-step begins to its end, in rows at the multiples of `period` [s] and at both ends.
-/// `begin` [s]: not before this time.
-void CheckStopBranch(const DescribedWalk& walk, int last, double begin, double period,
-                     const CertificateText& certificate, double tolerance, Distances* distances,
-                     Findings* findings);
 
 }  // namespace halfstep::verify

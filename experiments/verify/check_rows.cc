@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <utility>
 
 #include "experiments/verify/robot_numbers.h"
 #include "experiments/verify/tolerances.h"
@@ -49,30 +47,6 @@ bool CheckIsMotion(const std::vector<PlayedRow>& rows, Findings* findings) {
   return findings->disagreements() == before;
 }
 
-bool MovesHorizontally(const PlayedMotion& motion, size_t i, int side) {
-  const Eigen::Vector4d d = motion.rows()[i + 1].soles[Of(side)] - motion.rows()[i].soles[Of(side)];
-  const double moved = Tolerances(motion.robot()).moved;
-  return d.head<2>().norm() > moved || std::abs(d[3]) > moved;
-}
-
-double FootSpeed(const PlayedMotion& motion, size_t i, int side) {
-  const PlayedRow &a = motion.rows()[i], &b = motion.rows()[i + 1];
-  return (b.soles[Of(side)] - a.soles[Of(side)]).head<3>().norm() / (b.t - a.t);
-}
-
-double FootYawRate(const PlayedMotion& motion, size_t i, int side) {
-  const PlayedRow &a = motion.rows()[i], &b = motion.rows()[i + 1];
-  return std::abs(b.soles[Of(side)][3] - a.soles[Of(side)][3]) / (b.t - a.t);
-}
-
-double LandingMargin(const PlayedMotion& motion, size_t i, int side, const DescribedWalk& walk,
-                     double limit) {
-  const PlayedRow &a = motion.rows()[i], &b = motion.rows()[i + 1];
-  const double from = a.soles[Of(side)][2], to = b.soles[Of(side)][2];
-  const double above = std::max(from, to) - walk.LandingHeight(0.5 * (a.t + b.t), side);
-  return LandingLimit(limit, above) - (from - to) / (b.t - a.t);
-}
-
 SolePolygon PolygonOf(const PlayedRow& row, const RobotModel& robot) {
   if (row.support == Support::kBoth) return {{row.X_WS(0), row.X_WS(1)}, robot.sole_size};
   return {{row.X_WS(static_cast<int>(row.support))}, robot.sole_size};
@@ -90,25 +64,10 @@ double ReachMargin(const RobotModel& robot, const PlayedRow& row, int side) {
   return StretchedLength(leg) - (ankle_at - hip_at).norm();
 }
 
-// Where the support changes between two rows: what supports the robot there is in both polygons.
-void AddChange(PlayedRow a, PlayedRow b, const RobotModel& robot, Check* change) {
-  if (a.support == b.support) return;
-  std::swap(a.support, b.support);
-  for (const PlayedRow* crossed : {&a, &b}) {
-    change->Add(ZmpMargin(*crossed, robot), [&] { return At(a.t); });
-  }
-}
-
 double JointMargin(const RobotModel& robot, const PlayedRow& row, int side, int joint) {
   const LegJoint& of = robot.legs[Of(side)].joints[Of(joint)];
   const double q = row.q[Of(side)][joint];
   return std::min(q - of.lower, of.upper - q);
-}
-
-double JointSpeedMargin(const PlayedMotion& motion, size_t i, int side, int joint, double scale) {
-  const PlayedRow &a = motion.rows()[i], &b = motion.rows()[i + 1];
-  const double limit = scale * motion.robot().legs[Of(side)].joints[Of(joint)].max_speed;
-  return limit - std::abs(b.q[Of(side)][joint] - a.q[Of(side)][joint]) / (b.t - a.t);
 }
 
 void CheckConsistency(const PlayedMotion& motion, const DescribedWalk& walk, Findings* findings) {
@@ -175,113 +134,6 @@ void CheckConsistency(const PlayedMotion& motion, const DescribedWalk& walk, Fin
   for (const Check* check : {&soles, &waist, &pendulum, &velocity, &acceleration, &standing}) {
     check->Conclude(findings);
   }
-}
-
-void CheckRowMargins(const PlayedMotion& motion, const WalkFloor& floor,
-                     const CertificateText& certificate, double tolerance, Findings* findings) {
-  const RobotModel& robot = motion.robot();
-  const std::vector<PlayedRow>& rows = motion.rows();
-  const auto make = [&](Family family, const char* name, double slack) {
-    return Check(name, kUnits[family], certificate.demanded[family], slack);
-  };
-  const Tolerances near(robot);
-  Check joint = make(kJoint, "joint limits", near.length);
-  Check joint_speed = make(kJointSpeed, "joint speeds", near.joint_speed);
-  Check reach = make(kReach, "leg reach", near.length);
-  Check moving = make(kFloor, "height of a moving sole", tolerance);
-  Check foot_speed = make(kFootSpeed, "foot speed", near.foot_speed);
-  Check foot_yaw_rate = make(kFootYawRate, "foot yaw rate", near.joint_speed);
-  Check zmp = make(kZmp, "ZMP", near.length);
-  Check change("ZMP where the support changes", "m", std::min(0.0, certificate.demanded[kZmp]),
-               tolerance);
-  Check above("soles above the floor", "m", 0, near.length);
-  for (size_t i = 0; i < rows.size(); ++i) {
-    const PlayedRow& row = rows[i];
-    zmp.Add(ZmpMargin(row, robot), [&] { return At(row.t); });
-    for (int side = 0; side < 2; ++side) {
-      const auto leg_at = [&] { return std::string(SideName(side)) + " leg " + At(row.t); };
-      reach.Add(ReachMargin(robot, row, side), leg_at);
-      above.Add(floor.Above(row.soles[Of(side)][2]), leg_at);
-      const bool paired = i + 1 < rows.size();
-      // Rounded angles say little over a short last interval.
-      const double rounding = paired ? 1e-12 / (rows[i + 1].t - row.t) : 0;
-      for (int j = 0; j < 6; ++j) {
-        const auto where = [&] {
-          return robot.legs[Of(side)].joints[Of(j)].name + " " + At(row.t);
-        };
-        joint.Add(JointMargin(robot, row, side, j), where);
-        if (!paired) continue;
-        joint_speed.Add(
-            rounding + JointSpeedMargin(motion, i, side, j, certificate.joint_speed_scale), where);
-      }
-      if (!paired) continue;
-      if (certificate.foot_speed) {
-        foot_speed.Add(*certificate.foot_speed + rounding - FootSpeed(motion, i, side), leg_at);
-      }
-      if (certificate.foot_yaw_rate) {
-        foot_yaw_rate.Add(*certificate.foot_yaw_rate + rounding - FootYawRate(motion, i, side),
-                          leg_at);
-      }
-      // The horizontal motion may begin or end between the rows: then the higher one counts.
-      if (MovesHorizontally(motion, i, side)) {
-        const double highest = std::max(row.soles[Of(side)][2], rows[i + 1].soles[Of(side)][2]);
-        moving.Add(floor.Above(highest), leg_at);
-      }
-    }
-    if (i + 1 < rows.size()) AddChange(row, rows[i + 1], robot, &change);
-  }
-  for (const Check* check : {&joint, &joint_speed, &reach, &above, &moving, &foot_speed,
-                             &foot_yaw_rate, &zmp, &change}) {
-    check->Conclude(findings);
-  }
-}
-
-void CheckLanding(const PlayedMotion& motion, const DescribedWalk& walk,
-                  const CertificateText& certificate, Findings* findings) {
-  if (!certificate.landing_speed) return;
-  const std::vector<PlayedRow>& rows = motion.rows();
-  Check landing("landing speed", kUnits[kLandingSpeed], certificate.demanded[kLandingSpeed],
-                Tolerances(motion.robot()).foot_speed);
-  for (size_t i = 0; i + 1 < rows.size(); ++i) {
-    const double rounding = 1e-12 / (rows[i + 1].t - rows[i].t);
-    for (int side = 0; side < 2; ++side) {
-      landing.Add(rounding + LandingMargin(motion, i, side, walk, *certificate.landing_speed),
-                  [&] { return std::string(SideName(side)) + " leg " + At(rows[i].t); });
-    }
-  }
-  landing.Conclude(findings);
-}
-
-void CheckDynamics(const std::vector<PlayedRow>& rows, const DescribedWalk& walk, double friction,
-                   const CertificateText& certificate, Findings* findings) {
-  struct Checked {
-    Check check;
-    std::function<double(const WalkDynamics&)> margin;
-  };
-  const Tolerances near(walk.robot());
-  std::vector<Checked> all;
-  const auto add = [&](Family family, const char* what, const char* unit, double rounding,
-                       std::function<double(const WalkDynamics&)> margin) {
-    const std::string& fault = walk.robot().masses.fault;
-    if (certificate.demanded[family] == kNotDemanded || !fault.empty()) {
-      findings->Say(std::string(what) + ": nothing is demanded" +
-                    (fault.empty() ? "" : ", for " + fault));
-      return;
-    }
-    all.push_back({Check(what, unit, certificate.demanded[family], rounding), std::move(margin)});
-  };
-  add(kZmpRobot, "ZMP of the whole robot", "m", near.momentum,
-      [](const WalkDynamics& at) { return at.zmp; });
-  add(kTorque, "joint torques", "N m", near.torque,
-      [&](const WalkDynamics& at) { return at.LeastTorqueMargin(walk.robot()); });
-  add(kFriction, "friction", "", near.friction,
-      [&](const WalkDynamics& at) { return friction - at.friction; });
-  if (all.empty()) return;
-  for (const PlayedRow& row : rows) {
-    const WalkDynamics dynamics = walk.DynamicsAt(row.t);
-    for (Checked& of : all) of.check.Add(of.margin(dynamics), [&] { return At(row.t); });
-  }
-  for (const Checked& of : all) of.check.Conclude(findings);
 }
 
 }  // namespace halfstep::verify

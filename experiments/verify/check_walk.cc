@@ -75,20 +75,4 @@ void CheckRowsOnWalk(const std::vector<PlayedRow>& rows, const DescribedWalk& wa
                 Formatted(", every %.6g s, off by %.3g at most", period, largest));
 }
 
-std::vector<PlayedRow> FinerRows(const std::vector<PlayedRow>& rows, const DescribedWalk& walk,
-                                 double spacing) {
-  std::vector<PlayedRow> finer;
-  for (size_t i = 0; i < rows.size(); ++i) {
-    finer.push_back(walk.Row(rows[i].t));
-    if (i + 1 == rows.size()) break;
-    const double pause = rows[i + 1].t - rows[i].t;
-    const auto parts = static_cast<int>(std::ceil(pause / spacing - 1e-9));
-    for (int k = 1; k < parts; ++k) {
-      const double t = rows[i].t + pause * k / parts;
-      if (t > finer.back().t && t < rows[i + 1].t) finer.push_back(walk.Row(t));
-    }
-  }
-  return finer;
-}
-
 }  // namespace halfstep::verify

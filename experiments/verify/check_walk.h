@@ -12,9 +12,4 @@ namespace halfstep::verify {
 void CheckRowsOnWalk(const std::vector<PlayedRow>& rows, const DescribedWalk& walk, double period,
                      double end, Findings* findings);
 
-/// The rows of a walk at all instants of `rows` and, between two of them, at most `spacing` [s]
-/// apart.
-std::vector<PlayedRow> FinerRows(const std::vector<PlayedRow>& rows, const DescribedWalk& walk,
-                                 double spacing);
-
 }  // namespace halfstep::verify

@@ -12,6 +12,7 @@ namespace halfstep::verify {
 namespace {
 
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30;
+constexpr size_t kPart = 4096;  // rows that InParts() holds
 
 // Cells of a line; false: a quote out of place.
 bool Split(std::string_view line, std::vector<std::string>* cells) {
@@ -48,6 +49,20 @@ std::string ReadBytes(const std::string& path) { return ReadRegularFile(path, kM
 
 CsvText::CsvText(std::string path, const std::string& text, const std::vector<std::string>& header)
     : path_(std::move(path)), header_(header) {
+  Parse(text, {});
+}
+
+void CsvText::InParts(std::string path, const std::string& text,
+                      const std::vector<std::string>& header,
+                      const std::function<void(const CsvText&)>& read) {
+  CsvText csv;
+  csv.path_ = std::move(path);
+  csv.header_ = header;
+  csv.Parse(text, read);
+  if (csv.size() > 0) read(csv);
+}
+
+void CsvText::Parse(std::string_view text, const std::function<void(const CsvText&)>& read) {
   std::string_view rest = text;
   std::vector<std::string> cells;
   for (long line = 1; !rest.empty(); ++line) {
@@ -61,6 +76,11 @@ CsvText::CsvText(std::string path, const std::string& text, const std::vector<st
     if (line > 1) {
       if (cells.size() != header_.size()) {
         fail(Formatted("%zu cells (valid: %zu)", cells.size(), header_.size()));
+      }
+      if (read && rows_.size() == kPart) {
+        read(*this);
+        before_ += rows_.size();
+        rows_.clear();
       }
       rows_.push_back(cells);
       continue;
@@ -77,8 +97,8 @@ CsvText::CsvText(std::string path, const std::string& text, const std::vector<st
 }
 
 void CsvText::Refuse(size_t row, size_t column, const std::string& what) const {
-  throw InputError({path_ + ":" + std::to_string(row + 2) + ": " + header_[column] + ": " +
-                    Quote(rows_[row][column]) + " " + what});
+  throw InputError({path_ + ":" + std::to_string(before_ + row + 2) + ": " + header_[column] +
+                    ": " + Quote(rows_[row][column]) + " " + what});
 }
 
 double CsvText::Number(size_t row, size_t column) const {

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace halfstep::verify {
@@ -15,6 +18,11 @@ class CsvText {
   /// Throws InputError "path:line: …" for text that is no such table, or whose header is not
   /// `header`.
   CsvText(std::string path, const std::string& text, const std::vector<std::string>& header);
+  /// Calls `read` with a few thousand rows after the other, so that not all are held at once; rows
+  /// count from the first one of these. Throws as the constructor, after what `read` had before.
+  static void InParts(std::string path, const std::string& text,
+                      const std::vector<std::string>& header,
+                      const std::function<void(const CsvText&)>& read);
 
   size_t size() const { return rows_.size(); }  ///< number of rows
   /// Text of a cell.
@@ -33,9 +41,14 @@ class CsvText {
   [[noreturn]] void Refuse(size_t row, size_t column, const std::string& what) const;
 
  private:
+  CsvText() = default;
+  // Calls `read`, if there is one, before rows are forgotten.
+  void Parse(std::string_view text, const std::function<void(const CsvText&)>& read);
+
   std::string path_;
   std::vector<std::string> header_;
   std::vector<std::vector<std::string>> rows_;
+  size_t before_ = 0;  // rows that are forgotten
 };
 
 }  // namespace halfstep::verify

@@ -125,17 +125,6 @@ double Distances::SoleFromSolid(int side, const Eigen::Vector4d& sole, size_t ob
   return least;
 }
 
-double Distances::SoleFromSolids(int side, const Eigen::Vector4d& sole, double enough) {
-  const Eigen::Isometry3d X_WSole = ToIsometry({sole[0], sole[1], sole[3]}, sole[2]);
-  Eigen::AlignedBox3d around;
-  for (const Solid& part : Nth(flat_feet_, side)) around.extend(BoxOf(part, X_WSole));
-  double least = enough;
-  for (const size_t o : Near(around, enough)) {
-    if (o >= scene_.obstacles.size()) least = std::min(least, SoleFromSolid(side, sole, o));
-  }
-  return least;
-}
-
 double Distances::FromAll(size_t body, const Placement& at, double t, double enough) {
   std::array<double, 2> soles{};
   for (size_t side = 0; side < 2; ++side) {

@@ -44,8 +44,6 @@ class Distances {
   /// The distance of the outline of a whole foot (Index(Side)), laid flat where its sole is (x, y,
   /// z [m], yaw), from a solid of the ground [m].
   double SoleFromSolid(int side, const Eigen::Vector4d& sole, size_t obstacle);
-  /// The least of these, or something at least `enough` where none is nearer.
-  double SoleFromSolids(int side, const Eigen::Vector4d& sole, double enough);
   /// The least distance of a body from any obstacle that it has to keep off at t [m], or something
   /// at least `enough` when none is nearer than that.
   double FromAll(size_t body, const Placement& at, double t, double enough);

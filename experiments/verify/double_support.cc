@@ -49,21 +49,4 @@ std::string FaultOfShift(const DescribedWalk& walk, const ClaimRow& row, int hal
   return "";
 }
 
-void CheckDoubleSupport(const DescribedWalk& walk, const CertificateText& certificate,
-                        Findings* findings) {
-  const double demanded = certificate.demanded[kDoubleSupport];
-  if (demanded == kNotDemanded) return;
-  Check shifts("ZMPs from foot to foot", kUnits[kDoubleSupport], demanded, kRounding);
-  Check both("both feet between two steps", kUnits[kDoubleSupport], demanded, kRounding);
-  for (int i = 0; i < walk.num_half_steps(); ++i) {
-    shifts.Add(Duration(walk, i), [i] { return Formatted("in half-step %d", i + 1); });
-    if (walk.IsUp(i) || i + 1 == walk.num_half_steps()) continue;
-    // A foot lands as its ZMP begins to shift, and the next one lifts off as its own has shifted.
-    both.Add(walk.ShiftOf(i + 1).second - walk.ShiftOf(i).first,
-             [i] { return Formatted("after half-step %d", i + 1); });
-  }
-  shifts.Conclude(findings);
-  if (walk.num_half_steps() > 2) both.Conclude(findings);
-}
-
 }  // namespace halfstep::verify

@@ -16,7 +16,6 @@ void Check::Conclude(Findings* findings) const {
   }
   line += Formatted(", demanded %.6g − %.3g", demanded_, tolerance_);
   findings->Say(line);
-  findings->Reach({name_, count_, smallest_ - demanded_, where_});
   if (failures_ == 0) return;
   std::string reason = name_ + ": " + first_failure_;
   if (count_ > 0)

@@ -10,14 +10,6 @@
 
 namespace halfstep::verify {
 
-/// What a check over many instants reached.
-struct Reached {
-  std::string name;  ///< of the check
-  long count = 0;    ///< of values
-  double spare = 0;  ///< least value, less what was demanded [unit of the check]; +∞ without values
-  std::string where;  ///< at which it was found
-};
-
 /// What a verification found: one line for each check, and the reasons why it disagrees.
 class Findings {
  public:
@@ -34,15 +26,12 @@ class Findings {
   /// Notes what the verdict of one who reads only that must say.
   void Remark(std::string remark) { remark_ = std::move(remark); }
   const std::string& remark() const { return remark_; }  ///< "": nothing
-  /// Notes the least value of a check.
-  void Reach(Reached reached) { reached_.push_back(std::move(reached)); }
-  /// Adds the lines and disagreements of `other`, and what it reached.
+  /// Adds the lines and disagreements of `other`.
   void Take(const Findings& other) {
     lines_.insert(lines_.end(), other.lines_.begin(), other.lines_.end());
     not_examined_.insert(not_examined_.end(), other.not_examined_.begin(),
                          other.not_examined_.end());
     TakeReasons(other, "");
-    reached_.insert(reached_.end(), other.reached_.begin(), other.reached_.end());
   }
   /// Adds the disagreements of `other`, each with `prefix` before it, but not its lines.
   void TakeReasons(const Findings& other, const std::string& prefix) {
@@ -52,8 +41,6 @@ class Findings {
   const std::vector<std::string>& lines() const { return lines_; }  ///< of all checks
   /// What no check could look at.
   const std::vector<std::string>& not_examined() const { return not_examined_; }
-  /// Of all checks that have values.
-  const std::vector<Reached>& reached() const { return reached_; }
   const std::string& too_coarse() const { return too_coarse_; }  ///< "": the rows settle all checks
   /// The first twenty reasons; `disagreements()` counts them all.
   const std::vector<std::string>& reasons() const { return reasons_; }
@@ -64,7 +51,6 @@ class Findings {
   std::vector<std::string> lines_;
   std::vector<std::string> not_examined_;
   std::vector<std::string> reasons_;
-  std::vector<Reached> reached_;
   long disagreements_ = 0;
   std::string too_coarse_, remark_;
 };

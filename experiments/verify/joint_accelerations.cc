@@ -54,21 +54,4 @@ double LeastJointAccelerationMargin(const DescribedWalk& walk, double t) {
   return least;
 }
 
-void CheckJointAccelerations(const std::vector<PlayedRow>& rows, const DescribedWalk& walk,
-                             const CertificateText& certificate, Findings* findings) {
-  if (!LimitsAccelerations(walk.robot())) return;
-  const double demanded = certificate.demanded[kJointAcceleration];
-  if (demanded == kNotDemanded) {
-    findings->Say("joint accelerations: nothing is demanded");
-    return;
-  }
-  Check check("joint accelerations", kUnits[kJointAcceleration], demanded,
-              Tolerances(walk.robot()).acceleration);
-  for (const PlayedRow& row : rows) {
-    check.Add(LeastJointAccelerationMargin(walk, row.t),
-              [&row] { return Formatted("at t = %.6g s", row.t); });
-  }
-  check.Conclude(findings);
-}
-
 }  // namespace halfstep::verify

@@ -1,12 +1,8 @@
 #pragma once
 
 #include <array>
-#include <vector>
 
-#include "experiments/verify/certificate_text.h"
 #include "experiments/verify/described_walk.h"
-#include "experiments/verify/findings.h"
-#include "experiments/verify/played_motion.h"
 
 namespace halfstep::verify {
 
@@ -21,10 +17,5 @@ std::array<Vector6d, 2> JointAccelerations(const DescribedWalk& walk, double t);
 double JointAccelerationMargin(const DescribedWalk& walk, double t, size_t side, size_t joint);
 /// The least of all joints of both legs; +∞, unasked, where the robot file states no limit.
 double LeastJointAccelerationMargin(const DescribedWalk& walk, double t);
-
-/// Whether the joints' accelerations keep what is demanded at the rows' times, by the walk. Nothing
-/// is looked at, or said, where the robot file states no limit.
-void CheckJointAccelerations(const std::vector<PlayedRow>& rows, const DescribedWalk& walk,
-                             const CertificateText& certificate, Findings* findings);
 
 }  // namespace halfstep::verify

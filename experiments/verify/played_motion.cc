@@ -10,6 +10,35 @@
 #include "wpg/nth.h"
 
 namespace halfstep::verify {
+namespace {
+
+PlayedRow RowOf(const CsvText& csv, size_t i, size_t num_margins) {
+  PlayedRow row;
+  row.t = csv.Number(i, 0);
+  row.half_step = csv.Positive(i, 1);
+  const std::string& support = csv.Cell(i, 2);
+  if (support != "left" && support != "right" && support != "both") {
+    csv.Refuse(i, 2, "is no support (valid: left, right, both)");
+  }
+  row.support = support == "left"    ? Support::kLeft
+                : support == "right" ? Support::kRight
+                                     : Support::kBoth;
+  size_t column = 3;
+  const auto read = [&](auto& vector) {
+    for (double& value : vector) value = csv.Number(i, column++);
+  };
+  read(row.com);
+  read(row.com_velocity);
+  read(row.com_acceleration);
+  read(row.zmp);
+  read(row.waist);
+  for (auto& sole : row.soles) read(sole);
+  for (auto& q : row.q) read(q);
+  for (size_t k = 0; k < num_margins; ++k) row.margins[k] = csv.Number(i, column++);
+  return row;
+}
+
+}  // namespace
 
 bool PlayedRow::AllFinite() const {
   return std::isfinite(t) && com.allFinite() && com_velocity.allFinite() &&
@@ -41,33 +70,12 @@ std::vector<std::string> TrajectoryHeader(const RobotModel& robot) {
 
 std::vector<PlayedRow> ReadTrajectory(const std::string& path, const std::string& text,
                                       const RobotModel& robot) {
-  const std::vector<std::string> header = TrajectoryHeader(robot);
-  const CsvText csv(path, text, header);
-  std::vector<PlayedRow> rows(csv.size());
-  for (size_t i = 0; i < rows.size(); ++i) {
-    PlayedRow& row = rows[i];
-    row.t = csv.Number(i, 0);
-    row.half_step = csv.Positive(i, 1);
-    const std::string& support = csv.Cell(i, 2);
-    if (support != "left" && support != "right" && support != "both") {
-      csv.Refuse(i, 2, "is no support (valid: left, right, both)");
-    }
-    row.support = support == "left"    ? Support::kLeft
-                  : support == "right" ? Support::kRight
-                                       : Support::kBoth;
-    size_t column = 3;
-    const auto read = [&](auto& vector) {
-      for (double& value : vector) value = csv.Number(i, column++);
-    };
-    read(row.com);
-    read(row.com_velocity);
-    read(row.com_acceleration);
-    read(row.zmp);
-    read(row.waist);
-    for (auto& sole : row.soles) read(sole);
-    for (auto& q : row.q) read(q);
-    for (size_t k = 0; k < NumMarginColumns(robot); ++k) row.margins[k] = csv.Number(i, column++);
-  }
+  std::vector<PlayedRow> rows;
+  // So that it does not grow to twice of what it needs.
+  rows.reserve(static_cast<size_t>(std::ranges::count(text, '\n')));
+  CsvText::InParts(path, text, TrajectoryHeader(robot), [&](const CsvText& csv) {
+    for (size_t i = 0; i < csv.size(); ++i) rows.push_back(RowOf(csv, i, NumMarginColumns(robot)));
+  });
   return rows;
 }
 

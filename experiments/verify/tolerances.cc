@@ -28,13 +28,11 @@ Tolerances::Tolerances(const RobotModel& robot)
       played(1e-3 * size),
       length(1e-9 * size),
       sole(1e-6 * size),
-      foot(2e-6 * size),
       pendulum(1e-8 * size),
       row(1e-8 * size),
       column(1e-8 * size),
       claim(1e-7 * size),
       joint_speed(1e-6 / time),
-      foot_speed(1e-6 * time),
       momentum(1e-7 * size),
       torque(std::min(kOfWeight * robot.mass * kGravity * LegLength(robot),
                       kOfLeastLimit * LeastLimit(robot, &LegJoint::max_torque))),
@@ -43,11 +41,9 @@ Tolerances::Tolerances(const RobotModel& robot)
           std::min(1e-5 / size, kOfLeastLimit * LeastLimit(robot, &LegJoint::max_acceleration))),
       distance(2e-6 * size),
       slab(2e-6 * std::max(1.0, size)),
-      moved(1e-9 * size),
       inside(1e-9 * time),
       speed_step(1e-5 * time),
       momentum_step(2e-3 * time),
-      acceleration_step(5e-4 * time),
-      fine_rows(1e-3 * time) {}
+      acceleration_step(5e-4 * time) {}
 
 }  // namespace halfstep::verify

@@ -19,15 +19,13 @@ struct Tolerances {
   /// How far the played motion, straight between rows, may leave the walk where nobody says how
   /// far [m]: 1 mm for HRP-2.
   double played;
-  double length;    ///< one length from two sides [m]; angles of standing feet as well
-  double sole;      ///< a sole by forward kinematics against its columns [m], [rad]
-  double foot;      ///< the same of a foot's bodies above the floor, and what a robot file grants
-  double pendulum;  ///< residual of the pendulum's equation [m]
-  double row;       ///< a number of a row against the walk [m], [rad], [m/s], [m/s²]
-  double column;    ///< a margin column, [m], [rad] or [m/s]
-  double claim;     ///< a claimed margin, [m], [rad], [m/s]
+  double length;        ///< one length from two sides [m]; angles of standing feet as well
+  double sole;          ///< a sole by forward kinematics against its columns [m], [rad]
+  double pendulum;      ///< residual of the pendulum's equation [m]
+  double row;           ///< a number of a row against the walk [m], [rad], [m/s], [m/s²]
+  double column;        ///< a margin column, [m], [rad] or [m/s]
+  double claim;         ///< a claimed margin, [m], [rad], [m/s]
   double joint_speed;   ///< that is a difference of joint angles [rad/s]
-  double foot_speed;    ///< that is a difference of places [m/s]
   double momentum;      ///< the robot's ZMP by second differences of joint angles [m]
   double torque;        ///< joint torques by the same, which feet's shares magnify [N m]
   double friction;      ///< the needed coefficient by the same, which a short lever magnifies
@@ -36,13 +34,11 @@ struct Tolerances {
   /// How far the program's distances may be from verify's [m]. Its slabs and meshes are searched to
   /// 1e-6 m whatever the robot's size (planner/collision/separation.h).
   double slab;
-  double moved;   ///< between places of a foot that moves [m], [rad]
   double inside;  ///< of an interval, where its ends are looked at [s]
 
   double speed_step;         ///< half of that between angles of a first difference [s]
   double momentum_step;      ///< between the places of a second difference [s]
   double acceleration_step;  ///< between the joint angles of a second difference [s]
-  double fine_rows;          ///< between rows where the trajectory's are too coarse [s]
 };
 
 }  // namespace halfstep::verify

@@ -24,7 +24,6 @@
 #include "experiments/verify/found_inputs.h"
 #include "experiments/verify/given_files.h"
 #include "experiments/verify/robot_numbers.h"
-#include "experiments/verify/tolerances.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/sha256.h"
 
@@ -125,9 +124,16 @@ void CheckEpisodeWalking(const VerifyOptions& options, const EpisodeText& episod
   CheckEpisodeTrajectory(rows, manifest, executed, period, findings);
   CheckEpisodeEnding(episode, manifest, all, executed,
                      {experiment.goal, ground.HeightNamed(experiment.goal.level)}, findings);
-  CheckEpisodeProof(
-      episode, *all.last, place.scene, DemandsOf(experiment.smoothing.limits, findings),
-      {.period = period, .tolerance = options.tolerance.value_or(Tolerances(place.robot).played)},
+  const CertificateText demands = DemandsOf(experiment.smoothing.limits, findings);
+  const HalfStep form = HalfStepOf(experiment.half_step);
+  TellProved(
+      [&] {
+        return options.prove.of_episode({.robot = place.robot,
+                                         .scene = place.scene,
+                                         .demands = demands,
+                                         .form = form,
+                                         .episode = episode});
+      },
       findings);
   CheckEpisodeCommands(episode, manifest, config.live, findings);
   CheckEpisodePromise(promise, {episode, &executed, manifest.end, place.scene, config.live},

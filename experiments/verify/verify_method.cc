@@ -105,37 +105,46 @@ struct MethodFiles {
   fs::path folder, run;
 };
 
-// The walk that half_steps.csv and overlaps.csv describe; none when they do not fit.
-std::optional<DescribedWalk> WalkOf(const MethodFiles& files, const ExperimentConfig& config,
-                                    const RobotModel& robot, const Scene& scene,
-                                    const RunManifest::Method* of_method, Findings* findings) {
+// The tables that describe a walk, and the walk; none when they do not fit.
+struct MethodWalk {
+  std::vector<FootstepRow> footsteps;
+  std::vector<HalfStepRow> half_steps;
+  std::optional<std::vector<OverlapRow>> overlaps = {};
+  std::optional<DescribedWalk> walk = {};
+};
+
+MethodWalk WalkOf(const MethodFiles& files, const ExperimentConfig& config, const RobotModel& robot,
+                  const Scene& scene, const RunManifest::Method* of_method, Findings* findings) {
   const LevelTops ground(scene);
-  const std::optional<WalkPlan> on_ground = PlanOf(config, robot, ground, findings);
-  if (!on_ground) return std::nullopt;
-  const WalkPlan& planned = *on_ground;
-  CheckFootsteps(ReadFootsteps(files.PathInRun("footsteps.csv"), files.ReadOfRun("footsteps.csv")),
-                 planned, findings);
-  const auto half_steps =
-      ReadHalfSteps(files.PathOf("half_steps.csv"), files.Read("half_steps.csv"));
-  std::optional<std::vector<OverlapRow>> overlaps;
+  MethodWalk of{
+      .footsteps =
+          ReadFootsteps(files.PathInRun("footsteps.csv"), files.ReadOfRun("footsteps.csv")),
+      .half_steps = ReadHalfSteps(files.PathOf("half_steps.csv"), files.Read("half_steps.csv"))};
   if (files.Has("overlaps.csv")) {
-    overlaps = ReadOverlaps(files.PathOf("overlaps.csv"), files.Read("overlaps.csv"));
+    of.overlaps = ReadOverlaps(files.PathOf("overlaps.csv"), files.Read("overlaps.csv"));
   }
-  if (!CheckOverlaps(half_steps, overlaps, planned, findings)) return std::nullopt;
+  const std::optional<WalkPlan> on_ground = PlanOf(config, robot, ground, findings);
+  if (!on_ground) return of;
+  const WalkPlan& planned = *on_ground;
+  CheckFootsteps(of.footsteps, planned, findings);
+  if (!CheckOverlaps(of.half_steps, of.overlaps, planned, findings)) return of;
   const std::string& method = of_method == nullptr ? "" : of_method->name;
-  if (overlaps) {
-    CheckFixed(half_steps, *overlaps, planned, config.smoothing.fixed, findings);
-    CheckUpperBounds(method, half_steps, *overlaps, planned,
+  if (of.overlaps) {
+    CheckFixed(of.half_steps, *of.overlaps, planned, config.smoothing.fixed, findings);
+    CheckUpperBounds(method, of.half_steps, *of.overlaps, planned,
                      config.smoothing.options.Get(DichotomyGroup()), findings);
-    CheckChosen(method, half_steps, planned, config.smoothing, findings);
+    CheckChosen(method, of.half_steps, planned, config.smoothing, findings);
   }
   try {
-    if (ground.even()) return DescribedWalk(robot, planned, half_steps);
-    return DescribedWalk(robot, planned, half_steps, scene.ground->Floor());
+    if (ground.even()) {
+      of.walk.emplace(robot, planned, of.half_steps);
+    } else {
+      of.walk.emplace(robot, planned, of.half_steps, scene.ground->Floor());
+    }
   } catch (const std::logic_error& error) {
     findings->Disagree(std::string("half_steps.csv: describes no walk: ") + error.what());
-    return std::nullopt;
   }
+  return of;
 }
 
 // Robot and scene that the certificate is about, by their hashes.
@@ -200,12 +209,13 @@ struct MethodClaims {
   const std::vector<PlayedRow>& rows;
 };
 
-// Whether rows, played motion and claims are true of the walk. No scene: these are not the
-// certificate's files, so that distances say nothing.
+// Whether the walk keeps what is demanded, and rows, played motion and claims are true of it. No
+// scene: these are not the certificate's files, so that distances say nothing.
 void CheckMotion(const VerifyOptions& options, const ExperimentConfig& config,
-                 const MethodClaims& claimed, const DescribedWalk& walk, const Scene* scene,
+                 const MethodClaims& claimed, const MethodWalk& of, const Scene* scene,
                  Findings* findings) {
   const auto& [certificate, claims, rows] = claimed;
+  const DescribedWalk& walk = *of.walk;
   const PlayedMotion motion(walk.robot(), rows);
   const double period = RowPeriodOf(config, rows[1].t);
   const double tolerance = options.tolerance.value_or(Tolerances(walk.robot()).played);
@@ -215,10 +225,26 @@ void CheckMotion(const VerifyOptions& options, const ExperimentConfig& config,
     findings->Say("clearances: not examined, for these are not the certificate's files");
     return;
   }
+  const HalfStep form = HalfStepOf(config.half_step);
+  TellProved(
+      [&] {
+        return options.prove.of_run({.robot = walk.robot(),
+                                     .scene = *scene,
+                                     .certificate = certificate,
+                                     .form = form,
+                                     .footsteps = of.footsteps,
+                                     .half_steps = of.half_steps,
+                                     .overlaps = of.overlaps,
+                                     .stop_branches = config.smoothing.stop_branches});
+      },
+      findings);
+  for (const Family family : {kZmpRobot, kTorque, kFriction, kJointAcceleration}) {
+    const bool may_be = family != kJointAcceleration || LimitsAccelerations(walk.robot());
+    if (certificate.demanded[family] != kNotDemanded || !may_be) continue;
+    findings->Say(std::string(NameOf(family)) + ": nothing is demanded");
+  }
   Distances distances(walk.robot(), *scene, certificate.tube ? certificate.tube->tube : Tube{});
-  CheckPlayed(motion, walk, certificate, tolerance, &distances, findings);
-  CheckStopBranches(walk, {config.smoothing.stop_branches, period}, certificate, tolerance,
-                    &distances, findings);
+  CheckPlayed(motion, walk.floor(), certificate, tolerance, &distances, findings);
   CheckMarginColumns(rows, walk, certificate, &distances, findings);
   if (IsFinite(claims)) CheckClaims(walk, certificate, claims, &distances, findings);
   findings->Say("distances measured: " + Count(distances.queries()));
@@ -285,12 +311,11 @@ VerifiedStatement VerifyMethod(const VerifyOptions& options, const RunManifest& 
   CheckNotCovered("manifest.json", manifest.not_covered,
                   FindNotCovered(DemandsOf(config.smoothing.limits, findings), by_config, scene),
                   findings);
-  const std::optional<DescribedWalk> walk =
-      WalkOf(files, config, robot, scene, manifest.MethodOf(folder), findings);
+  const MethodWalk of = WalkOf(files, config, robot, scene, manifest.MethodOf(folder), findings);
   const VerifiedStatement verified{certificate.statement, not_covered,
                                    certificate.verdict == "certified"};
-  if (!CheckIsMotion(rows, findings) || !walk) return verified;
-  CheckMotion(options, config, {certificate, claimed, rows}, *walk, same_files ? &scene : nullptr,
+  if (!CheckIsMotion(rows, findings) || !of.walk) return verified;
+  CheckMotion(options, config, {certificate, claimed, rows}, of, same_files ? &scene : nullptr,
               findings);
   return verified;
 }

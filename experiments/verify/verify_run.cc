@@ -10,6 +10,7 @@
 #include "experiments/verify/run_manifest.h"
 #include "experiments/verify/verify_episode.h"
 #include "experiments/verify/verify_method.h"
+#include "wpg/check.h"
 #include "wpg/files/input_error.h"
 #include "wpg/files/suggestion.h"
 #include "wpg/files/text.h"
@@ -88,6 +89,7 @@ MethodVerification Verified(const std::string& method, const Check& check) {
 }  // namespace
 
 std::vector<MethodVerification> VerifyRun(const VerifyOptions& options) {
+  HALFSTEP_CHECK(options.prove.of_run && options.prove.of_episode, "nothing proves walks");
   if (options.tolerance && !(*options.tolerance >= 0 && *options.tolerance <= 1)) {
     throw InputError({"--tolerance: out of range (valid: 0 … 1 m)"});
   }

@@ -5,17 +5,19 @@
 #include <vector>
 
 #include "experiments/config/experiment_config.h"
+#include "experiments/verify/walk_prover.h"
 #include "wpg/robot/not_covered.h"
 
 namespace halfstep::verify {
 
 /// `tolerance` is how far the played motion, which is straight between rows, may leave the
 /// certified walk [m] (chord against curve: about 0.3 mm at rows every 5 ms for HRP-2); where it is
-/// not given, Tolerances::played of the robot, 1 mm for HRP-2. It is taken off what
-/// is demanded of clearances, of the heights of a moving sole and of bodies that are not on a foot,
-/// and of the ZMP where the support changes (0 there), and off nothing else: rows and claims are
-/// compared with the walk itself.
+/// not given, Tolerances::played of the robot, 1 mm for HRP-2. It is taken off what is demanded of
+/// that motion's clearances and of the heights of its bodies that are not on a foot, and off
+/// nothing else: of the walk itself all that is demanded is proved, and rows and claims are
+/// compared with it.
 struct VerifyOptions {
+  WalkProver prove = {};                   ///< has to be given (std::logic_error)
   std::string run;                         ///< run folder
   std::optional<std::string> method = {};  ///< none: every one of the run
   std::optional<double> tolerance = {};    ///< see above; 0 … 1 [m]
@@ -47,10 +49,11 @@ struct MethodVerification {
 
 /// Checks the certificates of a run against its other files, robot and scene: that they speak of
 /// the same things, that half_steps.csv and overlaps.csv describe one walk, that trajectory.csv has
-/// its rows and margins, that the certificate's rows are true of it, and that the robot that plays
-/// the trajectory keeps what is demanded. Distances are its own (Solid), and only of the very files
-/// that the certificate is about. None of the smoothing takes part; shared with the prover are the
-/// readers of input files, the closed forms of half-steps and of a leg's inverse kinematics (wpg).
+/// its rows and margins, that the certificate's rows are true of it, that it keeps what is demanded
+/// at every instant (`prove`), and that so does, less the tolerance, the robot that plays the
+/// trajectory. Distances are its own (Solid), and only of the very files that the certificate is
+/// about. None of the smoothing takes part; shared with the search for walks are the readers of
+/// input files.
 /// A method without a certificate is not verified. Throws InputError when no method has one. The
 /// folder of an episode gives one result (VerifyEpisode), and has no methods.
 std::vector<MethodVerification> VerifyRun(const VerifyOptions& options);

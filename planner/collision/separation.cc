@@ -23,7 +23,7 @@ namespace {
 
 constexpr double kThickness = 1e-6;  // [m] given to a core without volume before it meets a mesh.
 constexpr int kDiscSides = 64;
-// Taken off FCL's triangle distances for rounding: of the coordinates, and at least [m].
+// Taken off triangle distances for rounding: of the coordinates, and at least [m].
 constexpr double kTriangleRounding = 1e-12, kLeastRounding = 1e-10;
 // Taken off slabs to a mesh's hull for rounding: of the mesh's coordinates.
 constexpr double kSlabRounding = 4e-15;
@@ -182,7 +182,7 @@ Separation InWorld(const ConvexDistance& found, const Eigen::Isometry3d& X_Wa) {
           X_Wa * found.point_b_A};
 }
 
-// Taken off the distance of triangles for FCL's rounding [m].
+// Taken off the distance of triangles for rounding [m].
 double TriangleRounding(const CollisionShape& a, const Eigen::Isometry3d& X_Wa,
                         const CollisionShape& b, const Eigen::Isometry3d& X_Wb) {
   const double coordinates = (X_Wa.translation() - X_Wb.translation()).norm() + a.center().norm() +
@@ -231,16 +231,23 @@ Separation SeparateFromMesh(const CollisionShape& body, const Eigen::Isometry3d&
                                                  body.radius(), mesh.impl().surface(), X_WM, asked);
     const double core_distance = found ? found->distance - rounding : asked - rounding;
     if (!(core_distance > 0)) return contact();
-    if (!apart && Contains(body, mesh, X_WM.inverse(Eigen::Isometry) * X_WB)) return contact();
+    Eigen::Vector3d normal_W = to_hull.normal_W;
+    if (found) normal_W = (found->point_a_W - found->point_b_W).normalized();
+    const Eigen::Isometry3d X_MB = X_WM.inverse(Eigen::Isometry) * X_WB;
+    // As much of it as slabs prove; half of what was taken off is for their own rounding.
+    const double slabs =
+        mesh.impl().surface().LeastSlab(body.convex(), X_MB, X_WM.linear().transpose() * normal_W,
+                                        core_distance - ball + 0.5 * rounding);
+    const double distance = std::min(core_distance - ball, slabs - 0.5 * rounding);
+    if (!(distance + body.convex().ball_radius > 0)) return contact();
+    if (!apart && Contains(body, mesh, X_MB)) return contact();
     if (!found) {
-      to_hull.distance = std::max(cap, to_hull.distance);
+      to_hull.distance = std::max(std::min(cap, distance), to_hull.distance);
       return to_hull;
     }
-    if (!apart && core_distance - ball < 0) to_hull = slab(kConverge);
-    if (to_hull.distance >= core_distance - ball) return to_hull;
-    const Eigen::Vector3d &at_body = found->point_a_W, &at_mesh = found->point_b_W;
-    const Eigen::Vector3d normal_W = (at_body - at_mesh).normalized();
-    return {core_distance - ball, normal_W, at_body - ball * normal_W, at_mesh};
+    if (!apart && distance < 0) to_hull = slab(kConverge);
+    if (to_hull.distance >= distance) return to_hull;
+    return {distance, normal_W, found->point_a_W - ball * normal_W, found->point_b_W};
   } catch (const std::exception&) {
     return contact();
   }

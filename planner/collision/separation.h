@@ -17,8 +17,9 @@ namespace halfstep {
 ///   1. the slab to a convex body around the mesh: its hull (the axis-aligned bounds of a mesh that
 ///      is flat or has more than 20,000 triangles), widened by how far a vertex may lie outside and
 ///      by the slab's rounding (4e-15 of the mesh's coordinates);
-///   2. the distance of the triangles from the body's core, less the ball's radius and FCL's
-///      rounding (1e-12 of the coordinates, at least 1e-10 m). The core is the body without its
+///   2. the distance of the triangles from the body's core (FCL), less the ball's radius and
+///      rounding (1e-12 of the coordinates, at least 1e-10 m), as far as slabs between the body and
+///      each triangle prove it. The core is the body without its
 ///      ball; a disc is enclosed by a polygon of at least 64 sides, and a core without volume is
 ///      widened by 1e-6 m.
 /// A body that meets no triangle is in contact all the same when it holds a part of the mesh or is

@@ -4,6 +4,7 @@
 #include <fcl/narrowphase/distance.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <mutex>
 #include <queue>
@@ -11,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "planner/collision/convex_distance.h"
 #include "planner/collision/triangle_tree.h"
 #include "wpg/check.h"
 #include "wpg/geometry/bounds_tree.h"
@@ -44,6 +46,37 @@ std::unique_ptr<const Bvh> MakeBvh(const TriangleMesh& mesh, std::vector<int32_t
   return bvh;
 }
 
+// The least coordinates of a convex body along the directions that separated it last, in the frame
+// of a mesh.
+class LastSlabs {
+ public:
+  LastSlabs(const ConvexBody& body, const Eigen::Isometry3d& X_MB) : body_(body), X_MB_(X_MB) {}
+
+  // Along a unit n, towards the body.
+  void Add(const Eigen::Vector3d& n) {
+    const Eigen::Vector3d n_B = X_MB_.linear().transpose() * n;
+    Nth(slabs_, next_) = {n, n.dot(X_MB_.translation()) - Support(body_, -n_B)};
+    next_ = (next_ + 1) % slabs_.size();
+    count_ = std::max(count_, next_ == 0 ? slabs_.size() : next_);
+  }
+  // Whether one is at least `wide` to something whose largest coordinate along n is most(n).
+  template <typename Most>
+  bool Any(double wide, const Most& most) const {
+    return std::any_of(slabs_.begin(), slabs_.begin() + static_cast<std::ptrdiff_t>(count_),
+                       [&](const Slab& slab) { return slab.least - most(slab.n) >= wide; });
+  }
+
+ private:
+  struct Slab {
+    Eigen::Vector3d n;
+    double least = 0.0;
+  };
+  const ConvexBody& body_;
+  const Eigen::Isometry3d& X_MB_;
+  std::array<Slab, 6> slabs_;
+  size_t next_ = 0, count_ = 0;
+};
+
 }  // namespace
 
 struct TriangleSurface::Impl {
@@ -65,8 +98,16 @@ struct TriangleSurface::Impl {
     return *bvh;
   }
 
+  // With few triangles in a leaf.
+  const TriangleTree& triangles() {
+    std::call_once(once_triangles, [this] { triangle_tree.emplace(mesh); });
+    return *triangle_tree;
+  }
+
   const TriangleMesh mesh;
   const BoundsTree tree;
+  std::once_flag once_triangles;
+  std::optional<const TriangleTree> triangle_tree;
   std::vector<std::once_flag> once;  // by node; inner nodes have none
   std::vector<std::unique_ptr<const Bvh>> bvhs;
   std::atomic<int> built = 0;
@@ -118,6 +159,50 @@ std::optional<TriangleSurface::Nearest> TriangleSurface::Distance(
   }
   if (result.o1 == nullptr) return std::nullopt;
   return Nearest{result.min_distance, result.nearest_points[0], result.nearest_points[1]};
+}
+
+double TriangleSurface::LeastSlab(const ConvexBody& body, const Eigen::Isometry3d& X_MB,
+                                  const Eigen::Vector3d& first_M, double enough) const {
+  const TriangleTree& tree = impl_->triangles();
+  const Eigen::Isometry3d X_BM = X_MB.inverse(Eigen::Isometry);
+  const Eigen::Vector3d center = X_MB * body.center;
+  const double ball = body.radius + 1e-12 * (1.0 + center.norm() + tree.Farthest());
+  LastSlabs slabs(body, X_MB);
+  if (first_M.squaredNorm() > 0.5) slabs.Add(first_M);
+  ConvexBody triangle;
+  std::array<int32_t, BoundsTree::kDeepest> stack{};
+  size_t top = 0;
+  stack[top++] = 0;
+  while (top > 0) {
+    const BoundsTree::Node& node = Nth(tree.nodes, Nth(stack, --top));
+    const auto box_most = [&node](const Eigen::Vector3d& n) {
+      return n.dot(node.center) + n.cwiseAbs().dot(node.half);
+    };
+    if (BoundsTree::Gap(node, center) - ball >= enough || slabs.Any(enough, box_most)) continue;
+    if (node.left >= 0) {
+      Nth(stack, top++) = node.left + 1;
+      Nth(stack, top++) = node.left;
+      continue;
+    }
+    for (int32_t i = node.first; i < node.first + node.count; ++i) {
+      const Eigen::Matrix3d& corners = Nth(tree.triangles, i);
+      const auto most = [&corners](const Eigen::Vector3d& n) {
+        return (n.transpose() * corners).maxCoeff();
+      };
+      if (slabs.Any(enough, most)) continue;
+      triangle.vertices = corners;
+      triangle.center = corners.rowwise().mean();
+      const auto slab = [&](double until) {
+        return FindConvexDistance(body, triangle, X_BM, body.center - X_BM * triangle.center,
+                                  until);
+      };
+      ConvexDistance found = slab(enough);
+      if (!(found.lower >= enough)) found = slab(kConverge);
+      enough = std::min(enough, found.lower);
+      slabs.Add(X_MB.linear() * found.normal_A);
+    }
+  }
+  return enough;
 }
 
 }  // namespace halfstep

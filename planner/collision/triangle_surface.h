@@ -6,13 +6,14 @@
 #include <optional>
 
 #include "planner/scene/shape.h"
+#include "wpg/geometry/convex_body.h"
 
 namespace halfstep {
 
-/// The triangles of a mesh, for distances between two surfaces. They lie in blocks, and what FCL
-/// needs of a block is built when something first comes near it: what is far away costs nothing
-/// but its place in a tree. FCL appears in triangle_surface.cc only. Immutable as seen from
-/// outside, safe to use from several threads.
+/// The triangles of a mesh, for distances between two surfaces and from a convex body. They lie in
+/// blocks, and what FCL needs of a block is built when something first comes near it: what is far
+/// away costs nothing but its place in a tree. FCL appears in triangle_surface.cc only. Immutable
+/// as seen from outside, safe to use from several threads.
 class TriangleSurface {
  public:
   /// In one block: for a body that is small.
@@ -39,6 +40,13 @@ class TriangleSurface {
                                          const Eigen::Vector3d& center_W, double radius,
                                          const TriangleSurface& b, const Eigen::Isometry3d& X_Wb,
                                          double cap);
+
+  /// The least width of slabs between a convex body, placed at X_MB in the mesh's frame, and each
+  /// of the triangles [m]: by support functions alone, so it never exceeds the distance from any
+  /// (beyond rounding, 1e-14 of the coordinates). `enough` where all are as wide. `first_M`, from
+  /// the triangles to the body, unit or zero, is the direction that is tried first.
+  double LeastSlab(const ConvexBody& body, const Eigen::Isometry3d& X_MB,
+                   const Eigen::Vector3d& first_M, double enough) const;
 
  private:
   struct Impl;

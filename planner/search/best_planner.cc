@@ -110,7 +110,8 @@ class BestSearch {
   // Whether no plan is cheaper than the best.
   bool IsCheapest() const {
     return std::ranges::all_of(starts_, [this](const StepState& start) {
-      return monitor_.best_cost() <= least_.From(start) * (1.0 + 1e-12);
+      const double least = graph_.StartCost(start) + least_.From(start);
+      return monitor_.best_cost() <= least * (1.0 + 1e-12);
     });
   }
 

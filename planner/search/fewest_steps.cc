@@ -56,7 +56,7 @@ bool FewestSteps::Run() {
 void FewestSteps::Take() {
   for (; taken_ < inner_.plans().size(); ++taken_) {
     StepPlan plan = inner_.plans()[taken_];
-    plan.cost = 0.0;
+    plan.cost = graph_.StartCost(plan.start);
     StepState state = plan.start;
     bool forbidden = false;
     for (int k : plan.ks) {

@@ -52,7 +52,7 @@ TreeEnd GrowTree(const std::vector<StepState>& starts, const RrtOptions& options
   for (const StepState& start : starts) {
     if (monitor->Stop()) return TreeEnd::kStopped;
     if (edges == nullptr) {
-      growth = tree.AddRoot(start, 0.0);
+      growth = tree.AddRoot(start, graph->StartCost(start));
     } else if (const auto at = edges->Start(start)) {
       growth = tree.AddRoot(*at);
     }
@@ -76,7 +76,9 @@ constexpr const char* kFirstArrivals =
 // No plan from these states can be cheaper.
 bool IsCheapest(double cost, const std::vector<StepState>& starts, const StepGraph& graph) {
   for (const StepState& start : starts) {
-    if (cost > graph.reach().least_cost() * graph.LeastSteps(start)) return false;
+    if (cost > graph.StartCost(start) + graph.reach().least_cost() * graph.LeastSteps(start)) {
+      return false;
+    }
   }
   return true;
 }

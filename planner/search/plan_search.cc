@@ -135,7 +135,7 @@ void PlanMonitor::StartOver() {
 }
 
 PlanStates StatesOf(const StepGraph& graph, const StepPlan& plan, const TimedEdges* edges) {
-  PlanStates path{{plan.start}, {0.0}};
+  PlanStates path{{plan.start}, {graph.StartCost(plan.start)}};
   for (size_t j = 0; j < plan.ks.size(); ++j) {
     path.states.push_back(graph.After(path.states.back(), plan.ks[j]));
     path.costs.push_back(path.costs.back() + graph.cost(plan.ks[j]));

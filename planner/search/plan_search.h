@@ -14,7 +14,7 @@ namespace halfstep {
 struct StepPlan {
   StepState start;      ///< where it begins, a foot in the air
   std::vector<int> ks;  ///< places in StepGraph::elements()
-  double cost = 0.0;    ///< of the chain, by PlanRequest::cost
+  double cost = 0.0;    ///< of start and chain, by PlanRequest::cost
   /// In time: how each of `ks` is taken. Else empty.
   std::vector<TimedEdge> timed = {};
 };

@@ -44,7 +44,8 @@ std::optional<StepPlan> PlanStretch(const Roots& roots, const PlanStates& path, 
   StepTree tree(target, cells, graph, monitor, edges);
   StepTree::Growth growth = StepTree::Growth::kTrapped;
   for (const StepState& root : roots.states) {
-    if (growth != StepTree::Growth::kArrived) growth = tree.AddRoot(root, path.costs[a]);
+    if (growth == StepTree::Growth::kArrived) break;
+    growth = tree.AddRoot(root, a == 0 ? graph->StartCost(root) : path.costs[a]);
   }
   for (const TimedState& root : roots.timed) {
     if (growth != StepTree::Growth::kArrived) growth = tree.AddRoot(root);

@@ -36,6 +36,14 @@ class StepGraph {
   /// the air already: that state.
   std::vector<StepState> FreeStarts() const;
 
+  /// What a walk that begins with one of these costs before its first footstep: nothing upright;
+  /// where the waist comes down in that up half-step, twice what an element costs more that changes
+  /// the height, so that plans come down where they have to.
+  double StartCost(const StepState& start) const {
+    const bool comes_down = !request_.in_air && start.form > 0;
+    return comes_down ? 2.0 * (StepCost::kChangeOfHeight - 1.0) * reach_.least_cost() : 0.0;
+  }
+
   /// Where element k lands from a state, X_WF, at the exact height of the level where there is one;
   /// the height is NaN where PlanRequest::ground bears no sole there.
   Foothold Landing(const StepState& from, int k) const;

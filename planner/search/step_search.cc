@@ -97,6 +97,7 @@ class StepSearch::Weighted {
   void Begin(const StepState& start) {
     Node node;
     node.edge.to.state = start;
+    node.cost = graph_.StartCost(start);
     if (edges_ != nullptr) {
       const auto at = edges_->Start(start);
       if (!at) return;

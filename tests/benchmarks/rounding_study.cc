@@ -7,6 +7,7 @@
 
 #include "tests/oracle/rounding_draws.h"
 #include "tests/places.h"
+#include "tests/wpg/generated_robots.h"
 
 namespace {
 
@@ -56,6 +57,15 @@ int main(int argc, char** argv) {
       char title[40];
       std::snprintf(title, sizeof title, "%s × %g", robot, scale);
       kept = Print(title, tally) && kept;
+    }
+  }
+  for (const halfstep::GeneratedRobot& generated : halfstep::OffsetRobots()) {
+    const halfstep::RobotModel robot = halfstep::TemporaryRobot(generated).Load();
+    for (const double scale : {1.0, 0.08, 6.0}) {
+      tally = {};
+      DrawLegs(robot, scale, draws / 900, 9, &tally);
+      DrawNeighbourhoods(robot, scale, draws / 90, 10, &tally);
+      kept = Print("offset × " + std::to_string(scale), tally) && kept;
     }
   }
   return kept ? 0 : 1;

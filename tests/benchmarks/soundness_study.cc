@@ -1,20 +1,27 @@
 // Whether what the query calls free is certified: random elements of the certified set at random
 // places among random boxes, cylinders, spheres and capsules.
-//   soundness_study [N [SEED [ROBOT [CROUCH VIA]]]]     default: 100000 half-steps, seed 1, hrp2
-// With half_step.crouch_m and via_height_m [m] obstacles hang over the robot, too.
+//   soundness_study [N [SEED [ROBOT [CROUCH VIA [between]]]]]  default: 100000, seed 1, hrp2
+//   soundness_study N SEED ROBOT moving
+// With half_step.crouch_m and via_height_m [m] obstacles hang over the robot, too; `between`: also
+// half-steps at the config's height and those in which the waist changes its height. `moving`: what
+// ObstacleTimes call free at a time, half of these the ends of an interval.
 // ROBOT may be NAME-unequal or NAME-offset, whose legs differ (tests/oracle/unequal_legs.h).
 // Prints the figures of planner/README.md, "Swept volumes". Exit status 1: a contradiction. Swept
 // volumes from the user's cache, baked when they are not there. Other robots than HRP-2 among
 // obstacles that are smaller or larger as their legs are. Not a test.
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
 #include <vector>
 
 #include "experiments/config/experiment.h"
+#include "experiments/run/plan_between_heights.h"
+#include "experiments/run/plan_by_volumes.h"
 #include "experiments/run/planning.h"
+#include "planner/swept/obstacle_times.h"
 #include "planner/swept/swept_volume_query.h"
 #include "tests/oracle/unequal_legs.h"
 #include "tests/places.h"
@@ -60,6 +67,99 @@ Scene DrawMixed(int count, double size, double high, SweptDraw* draw) {
   return scene;
 }
 
+// A set of two heights of the waist, as planning makes it.
+BakedHalfSteps BakedBetween(const RobotModel& robot, const ExperimentConfig& config,
+                            const StepSet::Form& lower) {
+  PlannedWalk walk;
+  walk.config = config;
+  PlanBetweenHeights({robot, Scene{}}, lower, {}, &walk);
+  return std::move(walk.half_steps);
+}
+
+// A few obstacles of DrawMixed, on their ways to two other places.
+Scene DrawMoving(double size, SweptDraw* draw) {
+  Scene scene = DrawMixed(12, size, 0.8, draw);
+  for (Obstacle& obstacle : scene.obstacles) {
+    double t = 0.0;
+    for (int k = 0; k < 2; ++k) {
+      t += draw->Uniform(1.0, 10.0);
+      Eigen::Vector3d to = obstacle.X_WO.translation();
+      to.head<2>() = size * draw->Point({-kReach, -kReach, 0}, {kReach, kReach, 0}).head<2>();
+      obstacle.motion.waypoints.push_back({t, to, draw->Uniform(-1.0, 1.0)});
+    }
+  }
+  return scene;
+}
+
+// The scene as it is from a time on.
+Scene From(double t, Scene scene) {
+  for (Obstacle& obstacle : scene.obstacles) {
+    std::vector<ObstacleMotion::Waypoint>& waypoints = obstacle.motion.waypoints;
+    double yaw = 0.0, since = 0.0;
+    for (const ObstacleMotion::Waypoint& waypoint : waypoints) {
+      const double share = std::clamp((t - since) / (waypoint.t - since), 0.0, 1.0);
+      yaw += share * (waypoint.yaw - yaw);
+      since = waypoint.t;
+      if (share < 1.0) break;
+    }
+    obstacle.X_WO = obstacle.PoseAt(t);
+    std::erase_if(waypoints, [t](const auto& waypoint) { return waypoint.t <= t; });
+    for (ObstacleMotion::Waypoint& waypoint : waypoints) waypoint.t -= t, waypoint.yaw -= yaw;
+  }
+  return scene;
+}
+
+// The mode `moving`.
+int StudyMoving(long wanted, const RobotModel& robot, const ExperimentConfig& config,
+                SweptDraw* draw) {
+  const BakedHalfSteps baked = BakeHalfSteps(robot, config, {});
+  const SweptVolumes& volumes = *baked.cached.volumes;
+  const double size = LegScale(robot);
+  long asked = 0, free = 0, wrong = 0, controls = 0, refuted = 0;
+  while (asked < wanted) {
+    const Scene scene = DrawMoving(size, draw);
+    const SweptVolumeQuery always(volumes, robot.sole_outline, scene);
+    const ObstacleTimes times(robot, MotionModelOf(robot, volumes.set.prototype.shape), volumes.set,
+                              scene, ClearanceOf(config, robot), &always);
+    for (int k = 0; k < kHalfStepsInAScene && asked < wanted; ++k, ++asked) {
+      const int i = draw->Index(volumes.set.size());
+      const bool down = draw->Index(2) == 0;
+      const Side side = draw->AnySide();
+      const Foothold X_WS = Foothold::Level(draw->Floor(size * kReach));
+      const Foothold X_WF = X_WS * volumes.set.Placement(i, side);
+      const TimeIntervals starts =
+          down ? times.DownStarts(i, side, X_WS, X_WF) : times.UpStarts(i, side, X_WS, X_WF);
+      double t = draw->Uniform(0.0, times.settled() + 1.0);
+      if (starts.empty()) continue;
+      const TimeInterval& interval =
+          starts[static_cast<size_t>(draw->Index(static_cast<int>(starts.size())))];
+      if (draw->Index(2) == 0) t = std::isfinite(interval.end) ? interval.end : interval.begin;
+      const bool always_free = starts.front().begin == 0.0 && !std::isfinite(starts.front().end);
+      if (always_free || IntervalAt(starts, t) == nullptr) continue;
+      ++free;
+      const HalfStep half_step = down ? volumes.set.Down(i, side) : volumes.set.Up(i, side);
+      const auto certified = [&](double at) {
+        return HalfStepCertifier(robot, From(at, scene), config)
+            .Certifies(half_step, down ? X_WS : X_WF);
+      };
+      if (!certified(t)) {
+        ++wrong;
+        std::printf("contradiction: element %d, %s, %s, x %.17g y %.17g yaw %.17g t %.17g\n", i,
+                    down ? "down" : "up", std::string(Name(side)).c_str(), X_WS.x, X_WS.y, X_WS.yaw,
+                    t);
+      }
+      if (free % 20 != 0) continue;
+      ++controls;
+      refuted += !certified(t + 1.0);
+    }
+  }
+  std::printf(
+      "%s: %ld half-steps of %d elements, 12 obstacles that move: %ld called free at a time "
+      "that matters, %ld of them not certified; control: of %ld one second later %ld not\n",
+      robot.name.c_str(), asked, volumes.set.size(), free, wrong, controls, refuted);
+  return wrong == 0 ? 0 : 1;
+}
+
 struct Counts {
   long asked = 0, free = 0, certified_free = 0;
   long refused = 0, certified_refused = 0;
@@ -77,12 +177,18 @@ int main(int argc, char** argv) {
   const RobotModel robot = LoadRobot(path);
   const double size = LegScale(robot);
   std::vector<YamlOverride> overrides = {{"robot", path}};
-  if (argc > 5) overrides.push_back({"half_step.crouch_m", argv[4]});
-  if (argc > 5) overrides.push_back({"half_step.via_height_m", argv[5]});
+  const bool between = argc > 6;
+  if (argc > 5 && !between) {
+    overrides.push_back({"half_step.crouch_m", argv[4]});
+    overrides.push_back({"half_step.via_height_m", argv[5]});
+  }
   const double high = argc > 5 ? 2.0 : 0.8;
   const ExperimentConfig config =
       LoadConfig(InSources("experiments/configs/island.yaml"), overrides);
-  const BakedHalfSteps baked = BakeHalfSteps(robot, config, {});
+  if (argc == 5) return StudyMoving(wanted, robot, config, &draw);
+  const BakedHalfSteps baked =
+      between ? BakedBetween(robot, config, {std::atof(argv[4]), std::atof(argv[5])})
+              : BakeHalfSteps(robot, config, {});
   const SweptVolumes& volumes = *baked.cached.volumes;
   Counts n;
   while (n.asked < wanted) {

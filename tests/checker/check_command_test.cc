@@ -72,7 +72,8 @@ TEST(Trajectory, MayTellTheRootsPoses) {
 
 TEST(Trajectory, MistakesAreTold) {
   EXPECT_THAT(Refused("a.txt", ""), HasSubstr("is no trajectory (valid: .csv"));
-  EXPECT_THAT(Refused("a.csv", "x,wrist\n0,1\n1,1\n"), HasSubstr("the first column is no time"));
+  EXPECT_THAT(Refused("a.csv", "x,wrist\n0,1\n1,1\n"),
+              HasSubstr("a.csv:1: the first column is no time, but 'x'"));
   EXPECT_THAT(Refused("a.csv", "t,wrist\n0,1\n"), HasSubstr("fewer than two knots"));
   EXPECT_THAT(Refused("a.csv", "t,wrist\n0,1\n0,1\n"), HasSubstr("knot 2: time 0 s"));
   EXPECT_THAT(Refused("a.csv", "t,wirst\n0,1\n1,1\n"),
@@ -87,6 +88,22 @@ TEST(Trajectory, MistakesAreTold) {
                       "joint_names: [wrist]\npoints:\n- {positions: [1, 2], "
                       "time_from_start: 0}\n"),
               HasSubstr("positions: 2 numbers (valid: one for each of the 1 joints)"));
+}
+
+// Columns without names, as many programs write them.
+TEST(Trajectory, WithoutNamesOfColumnsIsTold) {
+  const std::string three = Refused("a.csv", "0.5,1e-3,-2\n1,1,1\n");
+  EXPECT_THAT(three, HasSubstr("a.csv:1: begins with 3 numbers in place of the columns' names: one "
+                               "for each of the robot's 3 joints, without a time (valid: a first "
+                               "line like t_s,shoulder,…: a time, joints, and where"));
+  EXPECT_THAT(three, HasSubstr("; joints: shoulder, elbow, wrist)"));
+  EXPECT_THAT(Refused("a.csv", "0,0,0,0\n"), HasSubstr("robot's 3 joints, and a time (valid"));
+  EXPECT_THAT(Refused("a.csv", "0,0,0,0,0,0,1,0,0,0\n"),
+              HasSubstr("3 joints and 7 for the root's pose, without a time (valid"));
+  EXPECT_THAT(Refused("a.csv", "0,0\n"), HasSubstr("in place of the columns' names (valid"));
+  EXPECT_THAT(Refused("a.csv", "t_s;wrist\n0;1\n"),
+              HasSubstr("a.csv:1: is one column, 't_s;wrist' (valid: commas between columns)"));
+  EXPECT_THAT(Refused("a.csv", "0.5 1e-3 -2\n"), HasSubstr("commas between columns"));
 }
 
 TEST(CheckCommand, SaysWhatIsProvedAndWhatIsNot) {

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <regex>
 #include <sstream>
 
 #include "experiments/commands/commands.h"
@@ -12,6 +11,7 @@
 #include "smoothing/proof/missed_demands.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/run_check.h"
+#include "tests/patterns.h"
 #include "tests/places.h"
 #include "tests/temporary_folder.h"
 #include "tests/wpg/one_step.h"
@@ -58,14 +58,13 @@ TEST(RunCommand, AnInfeasiblePlanTellsWhatHelps) {
   const Outcome outcome = Halfstep(place.path(), run);
   EXPECT_EQ(outcome.status, kFailed);
   EXPECT_THAT(outcome.out, Not(HasSubstr("not feasible"))) << "told once";
-  const std::regex told(
-      "tried, and feasible: (every footstep|footstep \\d): .*\\(`(\\S+): (\\S+)`\\)");
   int for_all = 0, for_one = 0;
   std::vector<std::string> with_each = run;
-  for (auto it = std::sregex_iterator(outcome.err.begin(), outcome.err.end(), told);
-       it != std::sregex_iterator(); ++it) {
-    const std::string set = (*it)[2].str() + "=" + (*it)[3].str();
-    if ((*it)[1] == "every footstep") {
+  for (const auto& told :
+       AllMatches(outcome.err,
+                  "tried, and feasible: (every footstep|footstep \\d): .*\\(`(\\S+): (\\S+)`\\)")) {
+    const std::string set = told[2] + "=" + told[3];
+    if (told[1] == "every footstep") {
       ++for_all;
       std::vector<std::string> with = run;
       with.insert(with.end(), {"--set", set});
@@ -128,13 +127,11 @@ TEST(RunCommand, AnInfeasiblePlanTellsEveryDemandTheWorstFirst) {
   for (std::string line; std::getline(lines, line);) {
     helps = helps || line.find("or less demanded (`smoothing.margins.self_clearance_m` below ") !=
                          std::string::npos;
-    std::smatch found;
-    if (!std::regex_search(
-            line, found,
-            std::regex("^  (?:at the start|footstep \\d .* s): \\S+ is (\\S+) mm from "
-                       "\\S+; 0.1 m demanded \\(at \\d+ of \\d+ instants\\)"))) {
-      continue;
-    }
+    const PatternMatch found =
+        FirstMatch(line,
+                   "^  (?:at the start|footstep \\d .* s): \\S+ is (\\S+) mm from "
+                   "\\S+; 0.1 m demanded \\(at \\d+ of \\d+ instants\\)");
+    if (!found) continue;
     margins.push_back(std::stod(found[1]));
   }
   EXPECT_TRUE(helps) << outcome.err;

@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <regex>
 
 #include "experiments/run/exit_status.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/run_check.h"
+#include "tests/patterns.h"
 #include "tests/temporary_folder.h"
 
 namespace halfstep {
@@ -28,9 +28,9 @@ TEST(InitCommand, ItsCommentsAreKeysOfTheRobot) {
     const TemporaryFolder place;
     ASSERT_EQ(Halfstep(place.path(), {"init", "walk", "--robot", robot}).status, kSuccess);
     std::string text = ReadText(place / "walk.yaml");
-    text = std::regex_replace(text, std::regex("\n# (half_step|smoothing)"), "\n$1");
-    text = std::regex_replace(text, std::regex("\n#   "), "\n  ");
-    text = std::regex_replace(text, std::regex("methods: .*"), "methods: [dichotomy]");
+    text = AllReplaced(text, "\n# (half_step|smoothing)", "\n$1");
+    text = AllReplaced(text, "\n#   ", "\n  ");
+    text = AllReplaced(text, "methods: .*", "methods: [dichotomy]");
     WriteText(place / "all.yaml", text);
     const Outcome outcome = Halfstep(place.path(), {"run", "all.yaml", "--quiet"});
     EXPECT_EQ(outcome.status, kSuccess) << text << outcome.err;

@@ -1,4 +1,4 @@
-// Surfaces that no sole fits on: what is said of them holds, and is said where it does.
+// Surfaces that no sole fits on: what is said of them holds, and is said where it does. Ramps.
 
 #include "experiments/run/narrow_surfaces.h"
 
@@ -7,9 +7,11 @@
 
 #include <numbers>
 
+#include "experiments/run/sloping_tops.h"
 #include "planner/ground/level_ground.h"
 #include "tests/wpg/shipped_robots.h"
 #include "wpg/files/text.h"
+#include "wpg/geometry/rotation.h"
 
 namespace halfstep {
 namespace {
@@ -84,6 +86,42 @@ TEST(NarrowSurfaces, SayByHowMuchASoleIsTurnedAndNoMore) {
     EXPECT_LE(told, least) << width;
     EXPECT_GE(told, least - 3) << width;
   }
+}
+
+// A box of 1.2 x 2 x 0.1 m turned about y, the lower edge of its top at z = `lowest`.
+Scene WithRamp(double degrees, double lowest) {
+  const double angle = degrees * std::numbers::pi / 180.0;
+  Obstacle ramp{.name = "ramp", .shape = Box{{1.2, 2.0, 0.1}}};
+  ramp.X_WO.linear() = AxisRotation(-angle, Eigen::Vector3d::UnitY());
+  const Eigen::Vector3d edge = ramp.X_WO.linear() * Eigen::Vector3d(-0.6, 0, 0.05);
+  ramp.X_WO.translation() = Eigen::Vector3d(1, 0, lowest - edge.z());
+  Scene scene;
+  scene.obstacles = {ramp};
+  return scene;
+}
+
+TEST(SlopingTops, AreThoseOfRamps) {
+  const RobotModel robot = ShippedRobot("hrp2");
+  const Eigen::AlignedBox2d area(Eigen::Vector2d(-1, -1), Eigen::Vector2d(3, 1)),
+      elsewhere(Eigen::Vector2d(-1, -1), Eigen::Vector2d(0.2, 1));
+  const auto said = SlopingTops(robot, WithRamp(10.0, 0.01), area);
+  ASSERT_THAT(said, SizeIs(1));
+  EXPECT_EQ(said.front(), "'ramp' slopes by 10 deg, and soles stand on level surfaces only");
+  EXPECT_THAT(SlopingTops(robot, WithRamp(10.0, 0.01), elsewhere), IsEmpty());
+  EXPECT_THAT(SlopingTops(robot, WithRamp(1.0, 0.01), area), IsEmpty());   // as good as level
+  EXPECT_THAT(SlopingTops(robot, WithRamp(50.0, 0.01), area), IsEmpty());  // a wall that leans
+  EXPECT_THAT(SlopingTops(robot, WithRamp(10.0, 0.8), area), IsEmpty());   // a desk
+  // A wedge: its underside is level.
+  Scene wedge = WithRamp(10.0, 0.0);
+  TriangleMesh mesh;
+  mesh.vertices.resize(3, 6);
+  mesh.vertices << 0, 1, 1, 0, 1, 1, -1, -1, -1, 1, 1, 1, 0, 0, 0.2, 0, 0, 0.2;
+  mesh.triangles.resize(3, 4);
+  mesh.triangles << 0, 0, 0, 0, 2, 5, 1, 4, 5, 3, 4, 3;
+  wedge.obstacles.front().shape = mesh;
+  wedge.obstacles.front().X_WO = Eigen::Isometry3d::Identity();
+  ASSERT_THAT(SlopingTops(robot, wedge, area), SizeIs(1));
+  EXPECT_THAT(SlopingTops(robot, wedge, area).front(), HasSubstr("slopes by 11.3 deg"));
 }
 
 }  // namespace

@@ -2,17 +2,19 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
-#include <regex>
 
 #include "experiments/commands/commands.h"
 #include "experiments/config/experiment.h"
 #include "experiments/config/scaled_defaults.h"
 #include "experiments/survey/robot_picture.h"
 #include "experiments/survey/robot_survey.h"
+#include "experiments/survey/self_gaps.h"
+#include "experiments/survey/stance_search.h"
 #include "experiments/survey/starter_config.h"
 #include "experiments/survey/support_search.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/run_check.h"
+#include "tests/patterns.h"
 #include "tests/places.h"
 #include "tests/replaced.h"
 #include "tests/temporary_folder.h"
@@ -108,8 +110,8 @@ TEST(RobotSurvey, FindsLegsSolesAndAPostureOfRobotsWithOtherAxes) {
 // Knees of half the torque: bison stands straighter, and the file says why.
 TEST(RobotSurvey, BendsKneesLessForTheirTorque) {
   const TemporaryFolder place;
-  const std::string urdf = std::regex_replace(ReadText(kRobots / "bison.urdf"),
-                                              std::regex("effort=\"300\""), "effort=\"150\"");
+  const std::string urdf =
+      AllReplaced(ReadText(kRobots / "bison.urdf"), "effort=\"300\"", "effort=\"150\"");
   const RobotDraft draft =
       SurveyRobot({.urdf = WriteText(place / "bison.urdf", urdf),
                    .packages = {{"bison_bodies", (kRobots / "bison").string()}}})
@@ -144,6 +146,21 @@ TEST(StarterConfig, SaysWhyStepsAreShort) {
               HasSubstr("m in place of 0.211 m: with longer ones a leg comes to its limits."));
 }
 
+// Where resting on one foot comes to a joint's limit, shorter steps would not help.
+TEST(SixSteps, AreNotShortWhereTheirLengthIsNotToBlame) {
+  RobotModel robot = ShippedRobot("hrp2");
+  const auto steps = [&robot] { return SixSteps(robot, DefaultHalfStep(robot)); };
+  for (double limit = 0.5; limit > 0.05 && IsWithinReach(robot, steps()); limit -= 0.001) {
+    for (Leg& leg : robot.legs) {
+      leg.joints[5].lower = -limit;
+      leg.joints[5].upper = limit;
+    }
+  }
+  const HalfStepSequence taken = steps();
+  EXPECT_FALSE(IsWithinReach(robot, taken));
+  EXPECT_GT(taken.half_steps[1].half_step.X_SF.x, 0.1);
+}
+
 TEST(StarterConfig, AsksASearchForARobotThatCannotRest) {
   const RobotModel robot = ShippedRobot("wren");
   EXPECT_THAT(StarterConfigText(robot, {.robot_file = "r.yaml"}),
@@ -165,12 +182,11 @@ TEST(RobotSurvey, SaysFirstWhatKeepsARobotFromBeingOfTheClass) {
   EXPECT_EQ(UrdfRefusal(good), "");
   EXPECT_THAT(UrdfRefusal("<robot name='r'><link name='stone'/></robot>"),
               HasSubstr("there are no two legs (valid: two legs of six revolute joints)"));
-  EXPECT_THAT(UrdfRefusal(std::regex_replace(good, std::regex("joint5' type='revolute'"),
-                                             "joint5' type='fixed'")),
+  EXPECT_THAT(UrdfRefusal(AllReplaced(good, "joint5' type='revolute'", "joint5' type='fixed'")),
               HasSubstr("has 5 moving joints"));
   // An ankle that turns one way only.
-  const std::regex ankle("('left_joint4'[^]*?<limit lower=')[^']*(' upper=')[^']*");
-  const std::string stiff = UrdfRefusal(std::regex_replace(good, ankle, "$011.4$021.5"));
+  const std::string ankle("('left_joint4'[^]*?<limit lower=')[^']*(' upper=')[^']*");
+  const std::string stiff = UrdfRefusal(AllReplaced(good, ankle, "$011.4$021.5"));
   EXPECT_THAT(stiff, HasSubstr("within the joints' limits: left_joint4 would be at "));
   EXPECT_THAT(stiff, HasSubstr("its limits are 80.2 and 85.9 deg (valid: "));
   // What is wrong with a finger is told later, and as a warning.
@@ -211,10 +227,9 @@ TEST(RobotSurvey, WritesTurnedFramesThatReadBack) {
       draft.R_LinkB.col(1) = (y < 3 ? 1 : -1) * Eigen::Vector3d::Unit(y % 3);
       draft.R_LinkB.col(2) = draft.R_LinkB.col(0).cross(draft.R_LinkB.col(1));
       if (draft.R_LinkB.isIdentity()) continue;  // is not written
-      std::smatch n;
-      const std::string yaml = YamlOf(draft);
-      ASSERT_TRUE(std::regex_search(
-          yaml, n, std::regex("waist_rpy_deg: \\[([-.0-9]+), ([-.0-9]+), ([-.0-9]+)\\]")));
+      const PatternMatch n =
+          FirstMatch(YamlOf(draft), "waist_rpy_deg: \\[([-.0-9]+), ([-.0-9]+), ([-.0-9]+)\\]");
+      ASSERT_TRUE(n);
       constexpr double kDegree = std::numbers::pi / 180.0;
       const Eigen::Matrix3d R = RollPitchYaw(kDegree * std::stod(n[1]), kDegree * std::stod(n[2]),
                                              kDegree * std::stod(n[3]));
@@ -266,12 +281,9 @@ TEST(RobotCommand, WritesTheDraftOfARobotThatItRefuses) {
       draft_of("<robot name='r'><link name='stone'/></robot>", "there are no two legs");
   EXPECT_THAT(no_legs, HasSubstr("# Waist and legs were not found."));
   // Feet without bodies.
-  const std::string no_soles =
-      draft_of(std::regex_replace(urdf,
-                                  std::regex("<collision>[^\\n]*<box size='0.2 0.11 0.04'/>[^\\n]*"
-                                             "</collision>"),
-                                  ""),
-               "foot has no collision bodies");
+  const std::string no_soles = draft_of(
+      AllReplaced(urdf, "<collision>[^\\n]*<box size='0.2 0.11 0.04'/>[^\\n]*</collision>", ""),
+      "foot has no collision bodies");
   EXPECT_THAT(no_soles, HasSubstr("waist_link: 'waist'"));
   EXPECT_THAT(no_soles, HasSubstr("# The soles were not looked for."));
 }
@@ -318,6 +330,15 @@ TEST(ScaledDefaults, GoByTheLegUnlessAKeySaysOtherwise) {
   EXPECT_EQ(config.half_step.foot_delay, 0.115);  // 0.0625 m · S(0.115/0.475) = 6 mm
   EXPECT_DOUBLE_EQ(config.step_set.x_max, 7 * config.step_set.spacing);
   EXPECT_EQ(config.half_step.support_point, 0.0);
+  // On soles of half the width for the stance, the ZMP goes from foot to foot in twice the time.
+  RobotMeasures narrow = half;
+  narrow.sole_width = 0.325 * narrow.standing_width;
+  ScaleDefaults(narrow, &(config = {}));
+  EXPECT_EQ(config.half_step.duration, 1.0);
+  EXPECT_EQ(config.half_step.zmp_shift, 0.1);
+  narrow.sole_width *= 0.1;
+  ScaleDefaults(narrow, &(config = {}));
+  EXPECT_EQ(config.half_step.zmp_shift, 0.15);  // and no more than three times
   half.support_point = -0.011;
   half.slowest_joint = 1.7;  // [rad/s]
   ScaleDefaults(half, &(config = {}));

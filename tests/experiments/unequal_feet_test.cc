@@ -3,13 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <regex>
 #include <string>
 
 #include "experiments/commands/commands.h"
 #include "experiments/survey/robot_survey.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/run_check.h"
+#include "tests/patterns.h"
 #include "tests/places.h"
 #include "tests/replaced.h"
 #include "tests/temporary_folder.h"
@@ -69,28 +69,25 @@ TEST(UnequalFeet, WalkWithEachLegAsItIs) {
 
 // A foot's box of 0.2 x 0.11 x 0.04 m in the place of which other shapes carry.
 std::string WithFeet(const std::string& urdf, const std::string& shapes) {
-  const std::regex foot(
+  const std::string foot =
       "<collision><origin xyz='([^ ]*) ([^ ]*) ([^']*)' rpy='[^']*'/><geometry><box size='0.2 0.11 "
-      "0.04'/></geometry></collision>");
-  std::string text;
-  auto from = urdf.cbegin();
-  for (std::sregex_iterator it(urdf.begin(), urdf.end(), foot), end; it != end; ++it) {
-    text.append(from, it->prefix().second);
+      "0.04'/></geometry></collision>";
+  std::string text, rest = urdf;
+  for (PatternMatch found = FirstMatch(rest, foot); found; found = FirstMatch(rest, foot)) {
     std::string own = shapes;
     for (const auto& [name, group] : {std::pair{"X", 1}, std::pair{"Y", 2}, std::pair{"Z", 3}}) {
-      own = std::regex_replace(own, std::regex("\\{" + std::string(name) + "([-+][0-9.]*)\\}"),
-                               "{" + (*it)[static_cast<size_t>(group)].str() + "$1}");
+      own = AllReplaced(own, "\\{" + std::string(name) + "([-+][0-9.]*)\\}",
+                        "{" + found[static_cast<size_t>(group)] + "$1}");
     }
     // Adds up what stands in braces.
-    std::smatch sum;
-    while (std::regex_search(own, sum, std::regex("\\{([-0-9.e]*)([-+][0-9.]*)\\}"))) {
-      own = sum.prefix().str() + std::to_string(std::stod(sum[1]) + std::stod(sum[2])) +
-            sum.suffix().str();
+    const std::string sum = "\\{([-0-9.e]*)([-+][0-9.]*)\\}";
+    for (PatternMatch two = FirstMatch(own, sum); two; two = FirstMatch(own, sum)) {
+      own = two.before + std::to_string(std::stod(two[1]) + std::stod(two[2])) + two.after;
     }
-    text += own;
-    from = it->suffix().first;
+    text += found.before + own;
+    rest = found.after;
   }
-  return text.append(from, urdf.cend());
+  return text + rest;
 }
 
 std::string ShapeAt(const std::string& xyz, const std::string& rpy, const std::string& geometry) {

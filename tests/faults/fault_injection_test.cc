@@ -12,11 +12,13 @@
 #include <cstdlib>
 #include <functional>
 #include <iostream>
+#include <map>
 #include <numeric>
 #include <random>
 
 #include "experiments/commands/commands.h"
 #include "experiments/report/report_page.h"
+#include "tests/draws.h"
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/made_once.h"
 #include "tests/faults/command_files.h"
@@ -119,10 +121,23 @@ class FaultyCommand : public testing::TestWithParam<Scenario> {
     fs::create_directory(place_ / "before");
     scenario_.prepare(place_ / "before");
     older_ = StateOf(place_ / "before" / scenario_.output);
-    const auto [outcome, calls] = Run({}, 0);
-    if (scenario_.name == "Replay" && outcome.status != kSuccess) GTEST_SKIP() << outcome.err;
-    ASSERT_EQ(outcome.status, kSuccess) << outcome.err;
-    calls_ = calls;
+    static std::map<std::string, std::vector<FileCall>> known;  // by scenario: one test finds them
+    const auto [at, is_new] = known.try_emplace(scenario_.name);
+    if (is_new) {
+      const auto [outcome, calls] = Run({}, 0);
+      if (scenario_.name == "Replay" && outcome.status != kSuccess) {
+        known.erase(at);
+        GTEST_SKIP() << outcome.err;
+      }
+      ASSERT_EQ(outcome.status, kSuccess) << outcome.err;
+      at->second = calls;
+    }
+    calls_ = at->second;
+  }
+
+  // What a run without faults writes, and which of it is the same every time.
+  void LookAtWhatIsWritten() {
+    if (!fs::exists(Output())) Run({}, 0);
     newer_ = StateOf(Output());
     Run({}, 0);
     for (const auto& [file, text] : StateOf(Output()).files) {
@@ -270,12 +285,15 @@ TEST_P(FaultyCommand, LeavesTheOlderOrTheNewAndSaysWhatFailed) {
     return;
   }
   ASSERT_GT(last, 0);
+  LookAtWhatIsWritten();
   std::mt19937 random(15);
   for (const std::string fault : {"kill", "term", "EIO", "ENOSPC"}) {
     std::vector<long> numbers(static_cast<size_t>(last));
     std::iota(numbers.begin(), numbers.end(), 1);
     std::shuffle(numbers.begin(), numbers.end(), random);
-    if (!EveryCall()) numbers.resize(std::min<size_t>(numbers.size(), 2));
+    // Where threads race some calls are not made, and most must be.
+    const size_t few = kFewDraws && scenario_.at_once ? 1 : 2;
+    if (!EveryCall()) numbers.resize(std::min(numbers.size(), few));
     for (const long at : numbers) {
       if (!HasFailure()) Injure(fault, at);
     }

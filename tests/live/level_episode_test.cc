@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "experiments/checker/prove_walk.h"
 #include "experiments/live/episode_files.h"
 #include "experiments/live/episode_reader.h"
 #include "experiments/live/free_half_steps.h"
@@ -82,7 +83,7 @@ TEST(LevelEpisode, ArrivesAroundWhatIsCarriedIntoItsWayAndIsVerified) {
   folder.Publish();
   const Episode read = ReadEpisode(path, world.config, world.place);
   EXPECT_EQ(read.walks.back().tail.plan.sequence.half_steps.back().X_WS.height, 0.11);
-  const auto verified = verify::VerifyRun({.run = path});
+  const auto verified = verify::VerifyRun({.prove = checker::ProverOfWalks(), .run = path});
   ASSERT_EQ(verified.size(), 1u);
   EXPECT_TRUE(verified[0].verified) << testing::PrintToString(verified[0].reasons);
 
@@ -92,7 +93,7 @@ TEST(LevelEpisode, ArrivesAroundWhatIsCarriedIntoItsWayAndIsVerified) {
   const size_t at = text.find(",0.04,");
   ASSERT_NE(at, std::string::npos);
   WriteText(footsteps, text.replace(at, 6, ",0.05,"));
-  EXPECT_THAT(verify::VerifyRun({.run = path})[0].reasons,
+  EXPECT_THAT(verify::VerifyRun({.prove = checker::ProverOfWalks(), .run = path})[0].reasons,
               testing::Contains(HasSubstr("no level at z = 0.05 m bears all of the sole")));
 }
 

@@ -187,6 +187,25 @@ class DrawnDynamics {
   RobotDrift drift_;
 };
 
+// The feet go with the waist, but for what leaves the joints of nearly stretched legs slow.
+void SlowTheFeet(const RobotModel& robot, const Posture& posture, WalkJet* jet) {
+  const double rate = jet->first[kWaistYaw], rate1 = jet->second[kWaistYaw];
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    const Leg& leg = Nth(robot.legs, Index(side));
+    const double reach = Nth(posture.ik, Index(side)).reach_margin;
+    const double share = std::sqrt(std::max(reach, 0.0) / (leg.ankle_B - leg.hip_B).norm());
+    const int f = FootIndex(side);
+    const Eigen::Vector2d d = jet->value.segment<2>(f) - jet->value.segment<2>(kComX);
+    const Eigen::Vector2d across(-d.y(), d.x());
+    Eigen::Vector4d carried, carried1;
+    carried << jet->first.segment<2>(kComX) + rate * across, jet->first[kWaistZ], rate;
+    carried1 << jet->second.segment<2>(kComX) + rate1 * across - rate * rate * d,
+        jet->second[kWaistZ], rate1;
+    jet->first.segment<4>(f) = carried + share * (jet->first.segment<4>(f) - carried);
+    jet->second.segment<4>(f) = carried1 + share * (jet->second.segment<4>(f) - carried1);
+  }
+}
+
 }  // namespace
 
 void DrawDynamics(const RobotModel& of, double scale, long draws, unsigned seed,
@@ -210,6 +229,9 @@ void DrawDynamics(const RobotModel& of, double scale, long draws, unsigned seed,
     // The ZMP mostly comes to be about one foot, or between both.
     Posture posture;
     if (!solve(&posture)) continue;
+    const bool slow = draw.Chance(0.5);
+    if (slow) SlowTheFeet(robot, posture, &jet);
+    if (!solve(&posture)) continue;
     const Side about = draw.Chance(0.5) ? Side::kLeft : Side::kRight;
     const double far = draw.Chance(0.3) ? draw.Uniform(-1, 1) : 0.3 * draw.Uniform(-1, 1);
     for (int round = 0; round < 3; ++round) {
@@ -219,7 +241,10 @@ void DrawDynamics(const RobotModel& of, double scale, long draws, unsigned seed,
       if (!zmp) break;
       const Eigen::Vector2d aim =
           jet.value.segment<2>(f) + far * robot.sole_size.norm() * Eigen::Vector2d(0.8, 0.6);
-      jet.second.segment<2>(kComX) += halfstep::kGravity / robot.waist_height * (*zmp - aim);
+      const Eigen::Vector2d push = halfstep::kGravity / robot.waist_height * (*zmp - aim);
+      for (const int q : {int{kComX}, int{kLeftX}, int{kRightX}}) {
+        if (slow || q == kComX) jet.second.segment<2>(q) += push;
+      }
     }
     for (int q = 0; q < kNumQuantities; ++q) {
       const size_t k = static_cast<size_t>(q);

@@ -7,7 +7,7 @@
 namespace halfstep::oracle {
 namespace {
 
-constexpr Real3 kUpward = {0, 0, 1};
+const Real3 kUpward = {0, 0, 1};
 
 // How a rigid body moves, with one of its points.
 struct Moving {

@@ -42,7 +42,7 @@ inline Real33 operator*(const Real33& A, const Real33& B) {
   return C;
 }
 inline Real Norm(const Real3& a) { return Sqrt(Dot(a, a)); }
-inline constexpr Real33 kIdentity = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+inline const Real33 kIdentity = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 
 /// By Rodrigues, about a unit vector.
 inline Real33 Rotation(const Real3& axis, Real angle) {

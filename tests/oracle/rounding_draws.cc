@@ -60,14 +60,18 @@ Eigen::Isometry3d Scaled(Eigen::Isometry3d X, double scale) {
 }  // namespace
 
 RobotModel ScaledRobot(RobotModel robot, double scale) {
-  for (Leg& leg : robot.legs) {
-    for (LegJoint& joint : leg.joints) {
+  const auto scale_leg = [scale](Leg* leg) {
+    for (LegJoint& joint : leg->joints) {
       joint.point_B *= scale;
       joint.X_BLink = Scaled(joint.X_BLink, scale);
     }
-    leg.hip_B *= scale;
-    leg.ankle_B *= scale;
-    leg.X_BSole = Scaled(leg.X_BSole, scale);
+    leg->hip_B *= scale;
+    leg->ankle_B *= scale;
+    leg->X_BSole = Scaled(leg->X_BSole, scale);
+  };
+  for (Leg& leg : robot.legs) {
+    scale_leg(&leg);
+    for (Leg& met : leg.met) scale_leg(&met);
   }
   for (RobotBody& body : robot.bodies) {
     body.shape.center *= scale;

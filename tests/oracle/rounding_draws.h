@@ -37,8 +37,14 @@ void DrawWalks(const std::string& robot_file, long draws, int steps, unsigned se
 void DrawLegs(const RobotModel& robot, double scale, long draws, unsigned seed,
               RoundingTally* tally);
 
+/// Legs of such a robot that have no closed form, on the way from their neighbour that has one, at
+/// angles of up to 1 rad: what is computed of their neighbourhood.
+void DrawNeighbourhoods(const RobotModel& robot, double scale, long draws, unsigned seed,
+                        RoundingTally* tally);
+
 /// What such a robot's masses ask for: joints' accelerations, the floor's wrench, the ZMP, the
 /// torques of one foot that stands alone and of two that share, and the friction that one needs.
+/// Half of the feet move as knees that are nearly stretched let them, half as they like.
 /// Bounds are those of intervals of no width. With `of_bound` below 1 these are made too small.
 void DrawDynamics(const RobotModel& robot, double scale, long draws, unsigned seed,
                   RoundingTally* tally, double of_bound = 1.0);

@@ -8,6 +8,7 @@
 
 #include "tests/oracle/rounding_draws.h"
 #include "tests/places.h"
+#include "tests/wpg/generated_robots.h"
 #include "tests/wpg/shipped_robots.h"
 
 namespace halfstep::oracle {
@@ -42,7 +43,8 @@ TEST(RoundingTest, OfWalks) {
   for (const std::string& robot : kShippedRobots) {
     DrawWalks(InSources("wpg/robots/") + robot + ".yaml", 2000, 0, 2, &tally);
   }
-  DrawWalks(kHrp2, 200, 100, 3, &tally);
+  // 4,000 half-steps.
+  DrawWalks(kHrp2, 200, 2000, 3, &tally);
   Expect(tally, {"walk yaw", "walk yaw'", "walk yaw''"});
 }
 
@@ -57,6 +59,22 @@ TEST(RoundingTest, OfLegs) {
       Expect(tally, {"angle"});
       EXPECT_GT(tally.parts["speed"].undecided, 0);
       EXPECT_LT(tally.parts["speed"].undecided, tally.parts["speed"].draws);
+    }
+  }
+}
+
+// Legs without closed form, with hip and ankle axes that miss each other as public humanoids have
+// them.
+TEST(RoundingTest, OfLegsWithoutClosedForm) {
+  for (const GeneratedRobot& generated : OffsetRobots()) {
+    const RobotModel robot = TemporaryRobot(generated).Load();
+    for (const double scale : {1.0, 0.08, 6.0}) {
+      SCOPED_TRACE(generated.name + " × " + std::to_string(scale));
+      RoundingTally tally;
+      DrawLegs(robot, scale, 100, 4, &tally);
+      DrawNeighbourhoods(robot, scale, 300, 5, &tally);
+      tally.parts.erase("not found");
+      Expect(tally, {"angle"});
     }
   }
 }

@@ -3,12 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 #include <vector>
 
 #include "planner/collision/collision_world.h"
 #include "planner/collision/mesh_interior.h"
 #include "planner/collision/triangle_surface.h"
+#include "tests/planner/brute_force_distance.h"
 #include "tests/planner/swept_volume_draws.h"
 #include "wpg/geometry/bounds_tree.h"
 #include "wpg/geometry/support_polygon.h"
@@ -115,6 +117,35 @@ TEST(TriangleSurface, InBlocksIsAsFarAsInOneAndBuildsOnlyWhatIsNear) {
     }
   }
   EXPECT_GT(found, 10);
+}
+
+TEST(TriangleSurface, SlabsToTrianglesMeetTheDistanceFromAllOfThem) {
+  SweptDraw draw(3);
+  const TriangleMesh mesh = Balls(60, 1, &draw);
+  const TriangleSurface surface(mesh);
+  const std::vector<Eigen::Matrix3d> triangles = Triangles(mesh, Isometry3d::Identity());
+  int apart = 0;
+  for (int k = 0; k < 100; ++k) {
+    ConvexBody box = MakeBox({0.2, 0.1, 0.3});
+    box.ball_radius = k % 2 == 0 ? 0.0 : 0.03;
+    BoundBySphere(&box);
+    Isometry3d X = Isometry3d::Identity();
+    X.linear() = draw.Turn(false);
+    X.translation() = draw.Point({-1, -1, 0}, {1, 1, 1});
+    const Vector3d first = k % 3 == 0 ? Vector3d::Zero() : draw.Direction();
+    const double truth = SurfaceDistance(Triangles(box, X), triangles) - box.ball_radius;
+    const double found = surface.LeastSlab(box, X, first, HUGE_VAL);
+    EXPECT_LE(found, truth + 1e-12);
+    if (found + box.ball_radius <= 0) continue;  // they meet
+    ++apart;
+    EXPECT_GE(found, truth - 1e-9);
+    // What all are apart by is told, and no more than the truth of what they are not.
+    EXPECT_EQ(surface.LeastSlab(box, X, first, truth - 1e-6), truth - 1e-6);
+    const double more = surface.LeastSlab(box, X, first, truth + 1e-6);
+    EXPECT_LE(more, truth + 1e-12);
+    EXPECT_GE(more, truth - 1e-9);
+  }
+  EXPECT_GT(apart, 50);
 }
 
 TEST(CollisionWorld, AmongHundredsTheNearestIsTheSmallestOfAllAtEveryTime) {

@@ -103,6 +103,39 @@ TEST(WaistHeights, EveryPlannerChangesThemWhereItHasTo) {
   }
 }
 
+// The waist comes down before the low band, not where the walk begins; under it, it begins low.
+TEST(WaistHeights, AreThoseOfStandingAtFirst) {
+  const StepSet set = TwoHeights();
+  const Bands query(set);
+  PlanRequest request{.start = {Foothold::Level({0, 0.1, 0}), Foothold::Level({0, -0.1, 0})},
+                      .goal = {.X_WG = {0.9, 0, 0}, .radius = 0.15, .box = {}},
+                      .set = set,
+                      .query = query};
+  request.stop = AfterEffort(3.0);
+  const StepGraph graph(request, AllElements(set));
+  const std::vector<StepState> starts = graph.FreeStarts();
+  ASSERT_EQ(starts.size(), 4u);
+  EXPECT_EQ(graph.StartCost(starts[0]), 0.0);
+  EXPECT_EQ(graph.StartCost(starts[2]), 0.5);
+  for (const bool low_at_first : {false, true}) {
+    request.start_is_free = [&](const HalfStep& up, const Foothold&) {
+      return !low_at_first || up.shape.crouch > 0.0;
+    };
+    for (const char* planner : {"best", "astar"}) {
+      SCOPED_TRACE(planner);
+      std::mt19937_64 random(1);
+      const PlanResult plan =
+          Planners::Standard().Make(planner, Scene{}, {})->Plan(request, random);
+      ASSERT_EQ(plan.status, PlanStatus::kSolved) << plan.sentence;
+      EXPECT_EQ(set.ChangeOf(plan.elements.front()).from, low_at_first ? 1 : 0);
+      double cost = low_at_first ? 0.5 : 0.0;
+      for (const int i : plan.elements)
+        cost += request.cost.OfElements(set)[static_cast<size_t>(i)];
+      EXPECT_EQ(plan.cost, cost);
+    }
+  }
+}
+
 TEST(WaistHeights, OneHeightAloneFindsNoWay) {
   const StepSet set = TwoHeights();
   const Bands query(set);

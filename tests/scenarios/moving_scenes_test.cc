@@ -41,6 +41,7 @@ TEST_P(EveryMethod, ReturnsACertifiedWalkAcrossABarThatMoves) {
   MethodOptions options;
   OptimizerOptions& optimizer = options.Edit(OptimizerGroup()).options;
   optimizer.effort = 0.5;
+  options.Edit(DichotomyGroup()).tolerance = optimizer.tolerance = 0.02;
   optimizer.program.parameters = {.heights = true, .durations = true};
   const SmoothingResult result =
       Methods::Standard().Find(GetParam()).Smooth(ProblemOf(e.sequence, test), options, monitor);

@@ -5,7 +5,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <regex>
 #include <set>
 #include <string>
 #include <thread>
@@ -17,6 +16,7 @@
 #include "experiments/server/server.h"
 #include "tests/experiments/child_process.h"
 #include "tests/live/small_files.h"
+#include "tests/patterns.h"
 #include "tests/places.h"
 #include "tests/server/test_client.h"
 #include "tests/temporary_folder.h"
@@ -49,14 +49,14 @@ class Served {
     child_ = std::make_unique<Child>(
         arguments, Child::Options{.working_directory = place_.path(), .standard_output = out});
     close(out);
-    const std::regex address("http://(127\\.0\\.0\\.1:([0-9]+))/([0-9a-f]{32})/\n");
-    std::smatch match;
+    PatternMatch match;
     for (int tries = 0; tries < 30'000; ++tries) {
       const std::string shown = TextOf(screen);
-      if (std::regex_search(shown, match, address) && HasEnded(shown)) break;
+      match = FirstMatch(shown, "http://(127\\.0\\.0\\.1:([0-9]+))/([0-9a-f]{32})/\n");
+      if (match && HasEnded(shown)) break;
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
-    if (match.empty()) throw std::runtime_error("no address");
+    if (!match) throw std::runtime_error("no address");
     host_ = match[1];
     port_ = std::stoi(match[2]);
     token_ = match[3];

@@ -40,7 +40,7 @@ std::string Kind(const std::string& reason) {
 
 Verdict Ask(const verify::VerifyOptions& options) {
   try {
-    const verify::MethodVerification result = verify::VerifyRun(options).front();
+    const verify::MethodVerification result = VerifyProved(options).front();
     if (result.verified) return {true, ""};
     if (!result.readable) return {false, "cannot be read: " + Kind(result.complaints.front())};
     return {false, Kind(result.reasons.empty() ? result.too_coarse : result.reasons.front())};

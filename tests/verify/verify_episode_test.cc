@@ -134,7 +134,7 @@ std::vector<EpisodeForgery> EpisodeForgeries() {
        InAllRows("obstacles.csv", "y_m",
                  [](double y) { return Formatted("%.17g", y > 1.2 ? y : y - 0.75); }),
        {},
-       "clearance: WAIST - bar at t = "},
+       " - bar, stopped after half-step "},
       {"SpeedLowered",
        InAllRows("obstacles.csv", "speed_m_s", CellValue("0")),
        {},
@@ -316,7 +316,7 @@ TEST_P(ForgedEpisode, IsRefused) {
   if (GetParam().before) GetParam().before(episode.folder());
   episode.Rehash();
   if (GetParam().after) GetParam().after(episode.folder());
-  const auto results = verify::VerifyRun({.run = episode.folder().string()});
+  const auto results = VerifyProved({.run = episode.folder().string()});
   ASSERT_EQ(results.size(), 1u);
   EXPECT_TRUE(results.front().readable) << verify::Describe(results.front());
   EXPECT_FALSE(results.front().verified);

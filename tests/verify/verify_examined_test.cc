@@ -23,7 +23,7 @@ using Json = nlohmann::ordered_json;
 
 bool IsVerified(const verify::VerifyOptions& options) {
   try {
-    return verify::VerifyRun(options).front().verified;
+    return VerifyProved(options).front().verified;
   } catch (const InputError&) {
     return false;
   }
@@ -105,7 +105,7 @@ TEST(Examined, AKeyThatVerifyDoesNotKnowIsRefused) {
     TamperedRun run;
     run.EditJson([&](Json& json) { json[Json::json_pointer(pointer)] = 0.1; });
     run.Rehash();
-    const auto results = verify::VerifyRun({.run = run.run().string(), .method = "dichotomy"});
+    const auto results = VerifyProved({.run = run.run().string(), .method = "dichotomy"});
     EXPECT_THAT(
         results.front().reasons,
         testing::Contains(HasSubstr("friction_of_any_floor' is no key that is known here")));
@@ -118,7 +118,7 @@ TEST(Examined, FormsMoveOnlyWhereTheConfigLetsThem) {
       {.overrides = {"smoothing.methods=[halfstep/sqp]", "smoothing.optimizer.footsteps=true",
                      "smoothing.optimizer.effort=3"}});
   const auto verified = [&] {
-    return verify::VerifyRun({.run = run.run().string(), .method = "halfstep/sqp"}).front();
+    return VerifyProved({.run = run.run().string(), .method = "halfstep/sqp"}).front();
   };
   EXPECT_TRUE(verified().verified) << verify::Describe(verified());
   TamperedRun::Replace(run.run() / "config.yaml", "    zmp_shifts: true", "    zmp_shifts: false");

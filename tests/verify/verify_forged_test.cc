@@ -187,7 +187,7 @@ TEST_P(Forged, IsRefusedForThisReason) {
   if (GetParam().before) GetParam().before(run);
   run.Rehash();
   if (GetParam().after) GetParam().after(run);
-  const auto results = verify::VerifyRun({.run = run.run().string(), .method = "dichotomy"});
+  const auto results = VerifyProved({.run = run.run().string(), .method = "dichotomy"});
   EXPECT_FALSE(results.front().verified);
   EXPECT_THAT(results.front().reasons, Contains(HasSubstr(GetParam().reason)))
       << verify::Describe(results.front());
@@ -210,7 +210,7 @@ TEST(StopBranches, AreCheckedWhenTheConfigDemandsThem) {
     Outcome outcome = verify();
     EXPECT_EQ(outcome.status, 0);
     if (demanded == std::string("all")) {
-      EXPECT_THAT(outcome.out, HasSubstr("stop branches: 1 keep every margin to their end"));
+      EXPECT_THAT(outcome.out, HasSubstr("stop branches keep every margin to their end: 1"));
       TamperedRun::Replace(run.run() / "config.yaml", "stop_branches: all",
                            "stop_branches: \"none\"");
       run.Rehash();
@@ -226,7 +226,7 @@ TEST(StopBranches, AreCheckedWhenTheConfigDemandsThem) {
     run.Rehash();
     outcome = verify();
     EXPECT_EQ(outcome.status, 3);
-    EXPECT_THAT(outcome.out, HasSubstr("stopped after half-step 1: "));
+    EXPECT_THAT(outcome.out, HasSubstr(", stopped after half-step 1 at t = "));
     EXPECT_THAT(outcome.out, HasSubstr("smoothing.stop_branches: config.yaml has all, but by "
                                        "manifest.json's acceptance it was none"));
   }

@@ -9,6 +9,7 @@
 #include "experiments/verify/verify_run.h"
 #include "tests/places.h"
 #include "tests/temporary_folder.h"
+#include "tests/verify/verified_here.h"
 #include "wpg/files/sha256.h"
 
 namespace halfstep {
@@ -49,7 +50,7 @@ TEST(InputFiles, SceneEditedDuringARunIsNotTheOneOfTheCertificate) {
   EXPECT_EQ(certificate["sha256"]["scene"], parsed);
   EXPECT_EQ(manifest["scene_sha256"], parsed);
   EXPECT_NE(CombinedSha256(LoadScene(place.scene().string()).files), parsed);
-  for (const auto& result : verify::VerifyRun({.run = (place.folder / "run").string()})) {
+  for (const auto& result : VerifyProved({.run = (place.folder / "run").string()})) {
     // What was parsed is nowhere: it was not copied, for another file lay there by then.
     EXPECT_FALSE(result.verified);
     EXPECT_FALSE(result.readable);

@@ -102,11 +102,11 @@ std::vector<CertificateForgery> ForgeriesOnLevels() {
       {"RiserNearerThanIsDemanded",
        InGround("[[0.14, -1], [0.7, -1], [0.7, 1], [0.14, 1]]",
                 "[[0.124, -1], [0.7, -1], [0.7, 1], [0.124, 1]]"),
-       "soles inside their levels: left foot at t = 0 s; smallest 0.003, demanded 0.005"},
+       "soles inside their levels: left sole at 0.000 s at t = 0 s: 0.003, demanded 0.005"},
       {"RiserNearerToMovingSoles",
        InGround("[[0.14, -1], [0.7, -1], [0.7, 1], [0.14, 1]]",
                 "[[0.122, -1], [0.7, -1], [0.7, 1], [0.122, 1]]"),
-       "moving soles and the ground's solids: left foot at t = "},
+       "height of a moving sole: swing foot - "},
       // The outline reaches back to x = 0.149 m.
       {"FootOverAnEdge",
        InGround("[[0.14, -1], [0.7, -1], [0.7, 1], [0.14, 1]]",

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
-#include <regex>
 #include <string>
 #include <vector>
 
@@ -198,10 +197,7 @@ class TamperedRun {
       Replace(place / "robots/hrp2.yaml", "\ncom_height_m: 0.814",
               "\ncom_height_m: " + std::to_string(*walk.com_height));
     }
-    // HRP-2's efforts are not published.
-    WriteText(place / "robots/hrp2.yaml",
-              std::regex_replace(ReadText(place / "robots/hrp2.yaml"),
-                                 std::regex("(LEG_JOINT[0-5]): none"), "$1: 200"));
+    GiveHrp2Efforts(place / "robots");
     if (walk.acceleration) {
       std::string limits = "acceleration_limits_rad_s2:\n";
       for (const std::string side : {"L", "R"}) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -218,7 +219,7 @@ TEST(CheckFloor, SeesABodyThatIsLowestBetweenTwoRows) {
     CertificateText certificate;
     certificate.demanded.fill(demanded);
     Findings findings;
-    CheckFloor(motion, WalkFloor(0), {}, certificate, 0, &findings);
+    CheckFloor(motion, WalkFloor(0), certificate, 0, &findings);
     EXPECT_EQ(findings.disagreements() > 0, demanded > middle);
   }
 }
@@ -323,6 +324,35 @@ smoothing:
   EXPECT_TRUE(FindOwnNames(path, "smoothing: [").told.empty());
   const std::string wrong = text + "speed: 3\n";
   EXPECT_THROW(ParseConfig(path, wrong, FindOwnNames(path, wrong).overrides), InputError);
+}
+
+TEST(CsvTables, AreReadInPartsAsAtOnce) {
+  std::string text = "a,b\n";
+  for (int i = 0; i < 10000; ++i) text += std::to_string(i) + ",\"x,\"\n";
+  const CsvText whole("t.csv", text, {"a", "b"});
+  int rows = 0, parts = 0;
+  size_t longest = 0;
+  CsvText::InParts("t.csv", text, {"a", "b"}, [&](const CsvText& part) {
+    ++parts;
+    longest = std::max(longest, part.size());
+    for (size_t i = 0; i < part.size(); ++i, ++rows) {
+      ASSERT_EQ(part.Whole(i, 0, 0), rows);
+      ASSERT_EQ(part.Cell(i, 1), whole.Cell(static_cast<size_t>(rows), 1));
+    }
+  });
+  EXPECT_EQ(rows, 10000);
+  EXPECT_GT(parts, 1);
+  EXPECT_LT(longest, 5000);
+  // Complaints count lines of the file.
+  text.replace(text.find("\n9000,") + 1, 4, "nine");
+  try {
+    CsvText::InParts("t.csv", text, {"a", "b"}, [](const CsvText& part) {
+      for (size_t i = 0; i < part.size(); ++i) (void)part.Number(i, 0);
+    });
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("t.csv:9002: a: "));
+  }
 }
 
 }  // namespace

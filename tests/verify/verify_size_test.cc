@@ -5,8 +5,10 @@
 
 #include "experiments/verify/tolerances.h"
 #include "experiments/verify/verify_run.h"
+#include "tests/patterns.h"
 #include "tests/places.h"
 #include "tests/verify/verify_mutation.h"
+#include "wpg/files/number_text.h"
 
 namespace halfstep {
 namespace {
@@ -31,7 +33,7 @@ TamperedWalk WalkOf(double size) {
 }
 
 verify::MethodVerification Verified(const TamperedRun& run) {
-  return verify::VerifyRun({.run = run.run().string(), .method = "dichotomy"}).front();
+  return VerifyProved({.run = run.run().string(), .method = "dichotomy"}).front();
 }
 
 TEST(VerifySize, DwarfsAndGiantsAreVerified) {
@@ -48,7 +50,7 @@ TEST(VerifySize, EffortsBelowWhatTheWalkNeedsAreRefused) {
   std::string text = ReadText(yaml);
   WriteText(yaml, text.substr(0, text.find("effort_limits_n_m:")));
   text = ReadText(run.urdf());
-  WriteText(run.urdf(), std::regex_replace(text, std::regex("effort=\"0\""), "effort=\"1e-6\""));
+  WriteText(run.urdf(), AllReplaced(text, "effort=\"0\"", "effort=\"1e-6\""));
   run.EditCertificate([](TamperedRun::Table& table) {
     for (auto& row : table) {
       if (row[2] == "torque") row[5] = row[6] = "0";

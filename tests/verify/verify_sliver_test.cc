@@ -35,7 +35,7 @@ std::string VerdictOfSliver(double length) {
     FAIL() << "no foot comes to stand";
   });
   run.Rehash();
-  const auto results = verify::VerifyRun({.run = run.run().string(), .method = "dichotomy"});
+  const auto results = VerifyProved({.run = run.run().string(), .method = "dichotomy"});
   return results.front().verified ? "verified" : verify::Describe(results.front());
 }
 

@@ -19,7 +19,7 @@ bool IsAccepted(const StudyMutation& mutation) {
   mutation.forge(run);
   try {
     run.Rehash();
-    const auto results = verify::VerifyRun({.run = run.run().string(), .method = "dichotomy"});
+    const auto results = VerifyProved({.run = run.run().string(), .method = "dichotomy"});
     return results.front().verified;
   } catch (const InputError&) {
     return false;

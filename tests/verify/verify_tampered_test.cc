@@ -200,7 +200,7 @@ std::vector<Mutation> Mutations() {
                               "no_step:\n  - name: area\n    polygon_m: [[0.25, -0.12], [0.3, "
                               "-0.12], [0.3, -0.08]]\n");
        },
-       "no-step areas: right foot"},
+       "no-step areas: right sole"},
       {"JointNudgedIntoTheObstacle", Nudge("q_RLEG_JOINT4_rad", 288, -0.3),
        "off the walk of half_steps.csv"},
       {"JointNudgedAfterTheRun", Nudge("q_RLEG_JOINT4_rad", 288, -0.3), kDiffers, false},

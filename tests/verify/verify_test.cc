@@ -40,7 +40,7 @@ TEST(Verify, AcceptsEveryMethodOfAWalkOverABar) {
   const Outcome run = Halfstep(place.path(), {"run", ShippedConfig("bar_8cm"), "--out", "run",
                                               "--quiet", "--set", "output.period_s=0.004"});
   ASSERT_EQ(run.status, kSuccess) << run.err;
-  const auto results = verify::VerifyRun({.run = (place / "run").string()});
+  const auto results = VerifyProved({.run = (place / "run").string()});
   ASSERT_EQ(results.size(), 3u);
   for (const auto& result : results) EXPECT_TRUE(result.verified) << verify::Describe(result);
 }
@@ -49,10 +49,10 @@ TEST(Verify, ToleranceIsWhatSeparatesTheTrajectoryFromTheWalk) {
   const TamperedRun run(TamperedWalk{.overrides = {"output.period_s=0.01"}});
   verify::VerifyOptions options{.run = run.run().string(), .method = "dichotomy"};
   options.tolerance = 0;
-  EXPECT_FALSE(verify::VerifyRun(options).front().verified);
-  EXPECT_NE(verify::VerifyRun(options).front().too_coarse, "");
+  EXPECT_FALSE(VerifyProved(options).front().verified);
+  EXPECT_NE(VerifyProved(options).front().too_coarse, "");
   options.tolerance = 1e-4;
-  EXPECT_TRUE(verify::VerifyRun(options).front().verified);
+  EXPECT_TRUE(VerifyProved(options).front().verified);
 }
 
 TEST(Verify, TakesAnotherSceneOnlyWhenItIsTheSame) {
@@ -60,9 +60,9 @@ TEST(Verify, TakesAnotherSceneOnlyWhenItIsTheSame) {
   const TemporaryFolder elsewhere;
   const std::string copy = WriteText(elsewhere / "box.yaml", ReadText(run.scene()));
   verify::VerifyOptions options{.run = run.run().string(), .method = "dichotomy", .scene = copy};
-  EXPECT_TRUE(verify::VerifyRun(options).front().verified);
+  EXPECT_TRUE(VerifyProved(options).front().verified);
   options.scene = "none";
-  EXPECT_FALSE(verify::VerifyRun(options).front().verified);
+  EXPECT_FALSE(VerifyProved(options).front().verified);
 }
 
 TEST(Verify, MethodWithoutCertificateIsNamedAndNotVerified) {
@@ -71,7 +71,7 @@ TEST(Verify, MethodWithoutCertificateIsNamedAndNotVerified) {
     std::filesystem::remove(run.run() / "raw" / file);
   }
   std::vector<std::string> without;
-  for (const auto& result : verify::VerifyRun({.run = run.run().string()})) {
+  for (const auto& result : VerifyProved({.run = run.run().string()})) {
     if (result.verified) continue;
     without.push_back(result.method);
     EXPECT_THAT(verify::Describe(result), HasSubstr("there is no certificate"));
@@ -79,7 +79,7 @@ TEST(Verify, MethodWithoutCertificateIsNamedAndNotVerified) {
   EXPECT_THAT(without, testing::ElementsAre("raw"));
   // A method of the manifest whose whole folder is gone is missed as well.
   std::filesystem::remove_all(run.run() / "raw");
-  EXPECT_EQ(verify::VerifyRun({.run = run.run().string()}).size(), 2u);
+  EXPECT_EQ(VerifyProved({.run = run.run().string()}).size(), 2u);
 }
 
 TEST(Verify, BadInputIsStatusTwo) {
@@ -129,7 +129,7 @@ TEST_P(OneCharacter, IsNeverAcceptedAndNeverCrashes) {
     const auto& path = files[static_cast<size_t>(i) % files.size()];
     const std::string before = ReadText(path);
     MutateOneCharacter(path, &random);
-    const auto results = verify::VerifyRun({.run = run.run().string(), .method = "dichotomy"});
+    const auto results = VerifyProved({.run = run.run().string(), .method = "dichotomy"});
     EXPECT_FALSE(results.front().verified) << path << " " << i;
     WriteText(path, before);
   }
@@ -146,7 +146,7 @@ TEST(Verify, OneCharacterBehindTheHashNeverCrashes) {
     const std::string before = ReadText(path), json = ReadText(run.json());
     MutateOneCharacter(path, &random);
     if (path != run.json()) run.Rehash();
-    EXPECT_NO_THROW((void)verify::VerifyRun({.run = run.run().string(), .method = "dichotomy"}));
+    EXPECT_NO_THROW((void)VerifyProved({.run = run.run().string(), .method = "dichotomy"}));
     WriteText(path, before);
     WriteText(run.json(), json);
   }

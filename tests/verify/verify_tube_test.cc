@@ -8,6 +8,7 @@
 #include "experiments/verify/tube_raise.h"
 #include "smoothing/margins/demandable.h"
 #include "smoothing/margins/family_traits.h"
+#include "tests/patterns.h"
 #include "tests/smoothing/certificate_draws.h"
 #include "tests/verify/certificate_forgery.h"
 #include "wpg/files/number_text.h"
@@ -105,8 +106,7 @@ TEST(VerifyTube, TheStatementNamesTheFamiliesThatHoldInIt) {
   const std::string named = statement.substr(list, colon + 10 - list);
   for (const MarginFamily family : AllMarginFamilies()) {
     const std::string pattern = "[ ,]" + std::string(Name(family)) + "[ ,:]";
-    EXPECT_EQ(std::regex_search(named, std::regex(pattern)), Traits(family).in_tube != nullptr)
-        << Name(family);
+    EXPECT_EQ(bool(FirstMatch(named, pattern)), Traits(family).in_tube != nullptr) << Name(family);
   }
 }
 

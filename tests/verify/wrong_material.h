@@ -29,7 +29,7 @@ struct Material {
 /// The checks.
 enum class Of {
   kMotion,
-  kRows,
+  kProved,
   kFloor,
   kConsistency,
   kClearances,

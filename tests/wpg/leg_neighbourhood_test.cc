@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -24,6 +23,34 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 class LegNeighbourhoodTest : public OffsetLegTest {};
+
+// Compiled once: Eigen unrolls each of them.
+Matrix6d Times(const Matrix6d& A, const Matrix6d& B) { return A * B; }
+Vector6d Applied(const Matrix6d& A, const Vector6d& v) { return A * v; }
+Vector6d Solved(const Matrix6d& A, const Vector6d& b) { return A.partialPivLu().solve(b); }
+double Largest(const Vector6d& v) { return v.maxCoeff(); }
+double Largest(const Matrix6d& A) { return A.maxCoeff(); }
+// By how much the truth exceeds what is claimed, and the largest part of a claim that it has.
+template <typename Matrix>
+double Excess(const Matrix& truth, const Matrix& bound) {
+  return Largest(Matrix(truth.cwiseAbs() - bound));
+}
+template <typename Matrix>
+double Part(const Matrix& truth, const Matrix& bound) {
+  return Largest(Matrix(truth.cwiseAbs().array() / (bound.array() + 1e-9)));
+}
+
+// Of a matrix without negative entries: lim ‖(M + 1)ⁿ‖^(1/n) − 1, by squaring.
+double SpectralRadius(const Matrix6d& M) {
+  Matrix6d power = M + Matrix6d::Identity();
+  double logarithm = 0.0;
+  for (int k = 0; k < 40; ++k) {
+    const double norm = power.norm();
+    logarithm += std::log(norm) / std::pow(2.0, k);
+    power = Times(power / norm, power / norm);
+  }
+  return std::exp(logarithm) - 1.0;
+}
 
 // Twists of the joints about the hip, as the neighbourhood has them.
 Matrix6d HipJacobian(const Leg& leg, const Vector6d& q) {
@@ -51,19 +78,19 @@ TEST_P(LegNeighbourhoodTest, NeighbourhoodHoldsWhatItClaims) {
     for (int j = 0; j < 6; ++j) speeds[j] = unit(random_);
     Vector6d q = solution.q;
     for (int j = 0; j < 6; ++j) q[j] += unit(random_) > 0 ? radius[j] : -radius[j];
-    const Matrix6d change = near->inverse() * (HipJacobian(leg, q) - HipJacobian(leg, solution.q));
+    const Matrix6d change =
+        Times(near->inverse(), HipJacobian(leg, q) - HipJacobian(leg, solution.q));
     const Matrix6d bound = near->Change(radius);
-    EXPECT_LE((change.cwiseAbs() - bound).maxCoeff(), 1e-12);
-    nearest = std::max(nearest, (change.cwiseAbs().array() / (bound.array() + 1e-9)).maxCoeff());
+    EXPECT_LE(Excess(change, bound), 1e-12);
+    nearest = std::max(nearest, Part(change, bound));
     const double h = 1e-6;
-    const Vector6d bending = near->inverse() *
-                             (HipJacobian(leg, q + h * speeds) - HipJacobian(leg, q - h * speeds)) /
-                             (2 * h) * speeds;
-    EXPECT_LE((bending.cwiseAbs() - near->Bending(speeds.cwiseAbs(), radius)).maxCoeff(), 1e-6);
-    const Vector6d here =
-        near->inverse() *
-        (HipJacobian(leg, solution.q + h * speeds) - HipJacobian(leg, solution.q - h * speeds)) /
-        (2 * h) * speeds;
+    const auto bending_at = [&](const Vector6d& at) {
+      const Matrix6d ahead = HipJacobian(leg, at + h * speeds);
+      const Matrix6d rate = (ahead - HipJacobian(leg, at - h * speeds)) / (2 * h);
+      return Applied(near->inverse(), Applied(rate, speeds));
+    };
+    const Vector6d bending = bending_at(q), here = bending_at(solution.q);
+    EXPECT_LE(Excess(bending, near->Bending(speeds.cwiseAbs(), radius)), 1e-6);
     EXPECT_LT((near->Bend(speeds) + here).norm(), 1e-5 * (1 + here.norm()));
   }
   EXPECT_GT(nearest, 0.9) << "so near that a term forgotten would show";
@@ -104,7 +131,7 @@ Matrix6d PoseChangeAt(const Leg& leg, const Matrix6d& inverse, const Isometry3d&
     twists.col(j) << 0.5 * Vector3d(A(2, 1) - A(1, 2), A(0, 2) - A(2, 0), A(1, 0) - A(0, 1)),
         turn.cross(d) + Vector3d(twists.col(j).tail<3>());
   }
-  return inverse * twists - Matrix6d::Identity();
+  return Times(inverse, twists) - Matrix6d::Identity();
 }
 
 // The same and more with few joints that turn, and on the way from the closed form: then no term
@@ -131,13 +158,13 @@ TEST_P(LegNeighbourhoodTest, NeighbourhoodHoldsWhatItClaimsOfFewJoints) {
     }
     const Leg here = AtShare(leg, share);
     const Matrix6d J = HipJacobian(here, solution.q);
-    ASSERT_LT((near->inverse() * J - Matrix6d::Identity()).norm(), 1e-9);
+    ASSERT_LT((Times(near->inverse(), J) - Matrix6d::Identity()).norm(), 1e-9);
     const auto compare = [](const auto& truth, const auto& bound, double* most) {
-      EXPECT_LE((truth.cwiseAbs() - bound).maxCoeff(), 1e-11);
-      *most = std::max(*most, (truth.cwiseAbs().array() / (bound.array() + 1e-9)).maxCoeff());
+      EXPECT_LE(Excess(truth, bound), 1e-11);
+      *most = std::max(*most, Part(truth, bound));
     };
     const Matrix6d there = HipJacobian(AtShare(leg, other), q);
-    compare(Matrix6d(near->inverse() * (there - J)), near->Change(radius, std::abs(other - share)),
+    compare(Times(near->inverse(), there - J), near->Change(radius, std::abs(other - share)),
             &nearest);
     const Matrix6d at_q = HipJacobian(here, q);
     Vector6d bending = Vector6d::Zero();
@@ -146,7 +173,7 @@ TEST_P(LegNeighbourhoodTest, NeighbourhoodHoldsWhatItClaimsOfFewJoints) {
         bending += speeds[l] * speeds[j] * Bracket(at_q.col(l), at_q.col(j));
       }
     }
-    compare(Vector6d(near->inverse() * bending), near->Bending(speeds.cwiseAbs(), radius),
+    compare(Applied(near->inverse(), bending), near->Bending(speeds.cwiseAbs(), radius),
             &nearest_bending);
     if (share == 1.0 && radius.sum() < 0.5) {
       compare(PoseChangeAt(leg, near->inverse(), near->X_BSole(), q), near->PoseChange(radius),
@@ -156,8 +183,7 @@ TEST_P(LegNeighbourhoodTest, NeighbourhoodHoldsWhatItClaimsOfFewJoints) {
     twist[2] = unit(random_) < 0 ? 0.0 : 0.7;
     if (unit(random_) < 0) twist.tail<3>() = Vector3d(unit(random_), unit(random_), unit(random_));
     double asked = 0;
-    compare(Vector6d(near->inverse() * twist), near->Asked(twist[2], twist.tail<3>().norm()),
-            &asked);
+    compare(Applied(near->inverse(), twist), near->Asked(twist[2], twist.tail<3>().norm()), &asked);
     // A sole that may have turned by more has no proof.
     const double sum = radius.sum();
     if (sum > 0) {
@@ -183,7 +209,7 @@ std::optional<Vector6d> Meet(const Leg& leg, const Isometry3d& X, Vector6d q) {
     Vector6d twist;
     twist << turn.angle() * turn.axis(), left * leg.hip_B - leg.hip_B;
     if (twist.norm() < 1e-12) return q;
-    q += HipJacobian(leg, q).partialPivLu().solve(twist);
+    q += Solved(HipJacobian(leg, q), twist);
     if (!q.allFinite()) return std::nullopt;
   }
   return std::nullopt;
@@ -209,7 +235,7 @@ TEST_P(LegNeighbourhoodTest, WaysHoldWhatJointsDoAlongTheLift) {
       const double size = std::pow(10, -2.5 * share_of(random_));
       for (double& x : twist) x = unit(random_) < 0.5 ? 0.0 : size * unit(random_);
     }
-    const Vector6d straight = near->inverse() * twist;
+    const Vector6d straight = Applied(near->inverse(), twist);
     const auto ways = near->Ways(straight.cwiseAbs(), share);
     if (!ways) continue;
     ++proved;
@@ -233,11 +259,11 @@ TEST_P(LegNeighbourhoodTest, WaysHoldWhatJointsDoAlongTheLift) {
       way += (*next - q).cwiseAbs();
       q = *next;
     }
-    EXPECT_LE((way - *ways).maxCoeff(), 1e-9);
+    EXPECT_LE(Largest(Vector6d(way - *ways)), 1e-9);
     const Vector6d bent = (q - solution.q - share * near->by_share() - straight).cwiseAbs();
     const Vector6d may = *ways - straight.cwiseAbs() - share * near->by_share().cwiseAbs();
-    EXPECT_LE((bent - may).maxCoeff(), 1e-9);
-    nearest = std::max(nearest, (way.array() / (ways->array() + 1e-9)).maxCoeff());
+    EXPECT_LE(Largest(Vector6d(bent - may)), 1e-9);
+    nearest = std::max(nearest, Part(way, *ways));
   }
   EXPECT_GT(proved, 100);
   EXPECT_GT(nearest, 0.95);
@@ -250,7 +276,10 @@ TEST_P(LegNeighbourhoodTest, ThereIsNoProofOfAnIntervalInWhichTheLegIsStretched)
   const double h = 0.01;
   Isometry3d X = LegForwardKinematics(leg, leg.standing_q)[6];
   while (SolveLegIk(leg, X).reach_margin > 0.02 * size_) X.translation().z() -= 1e-3 * size_;
-  const auto proved = [&](const SoleDrift& drift) { return ContinueLeg(leg, X, drift).arrived; };
+  const Vector6d q = SolveLegIk(leg, X).q;
+  const auto proved = [&](const SoleDrift& drift) {
+    return StaysInBranch(leg, X, drift, q, Vector6d::Zero());
+  };
   const double out = 0.05 * size_;  // [m]
   EXPECT_TRUE(proved({}));
   EXPECT_TRUE(proved({.half_width = h, .velocity = {0, 0, -1e-3}, .acceleration = 1e-3}));
@@ -259,6 +288,28 @@ TEST_P(LegNeighbourhoodTest, ThereIsNoProofOfAnIntervalInWhichTheLegIsStretched)
   // A turn on the spot takes the hip's side out of reach of axes that are not vertical.
   EXPECT_FALSE(proved({.half_width = h, .yaw_rate = 3.0 / h}));
   EXPECT_FALSE(proved({.half_width = h, .yaw_acceleration = 6.0 / (h * h)}));
+  // As little where rounding may have done as much, at m or since.
+  const LegRounding::OfSole little{.turn = 1e-9, .place = 1e-9}, much{.turn = 1.0, .place = out};
+  EXPECT_TRUE(proved({.half_width = h, .pose_off = little, .twist_off = little}));
+  EXPECT_FALSE(proved({.pose_off = much}));
+  EXPECT_FALSE(proved({.half_width = h, .twist_off = {.turn = 1.0 / h, .place = out / h}}));
+}
+
+// Angles that may be others than those of the branch are refused: another posture, and where
+// rounding may do more than a box is wider.
+TEST_P(LegNeighbourhoodTest, OnlyAnglesOfTheBranchStayInIt) {
+  const Leg& leg = robot_.legs[0];
+  const Isometry3d X = LegForwardKinematics(leg, leg.standing_q)[6];
+  const Vector6d q = SolveLegIk(leg, X).q, none = Vector6d::Zero();
+  EXPECT_TRUE(StaysInBranch(leg, X, {}, q, none));
+  EXPECT_TRUE(StaysInBranch(leg, X, {}, q, Vector6d::Constant(1e-9)));
+  for (int j = 0; j < 6; ++j) {
+    EXPECT_FALSE(StaysInBranch(leg, X, {}, q + 0.5 * Vector6d::Unit(j), none)) << j;
+    EXPECT_FALSE(StaysInBranch(leg, X, {}, q, 0.5 * Vector6d::Unit(j))) << j;
+    Vector6d unbounded = none;
+    unbounded[j] = HUGE_VAL;
+    EXPECT_FALSE(StaysInBranch(leg, X, {}, q, unbounded)) << j;
+  }
 }
 
 // sup |dV/dt| of V = v + ψ̇ẑ×(about − p), against instants of motions that keep the drift.
@@ -296,14 +347,14 @@ TEST(Contraction, IsThereOnlyBelowASpectralRadiusOfOne) {
   for (int k = 0; k < 300; ++k) {
     Matrix6d M;
     for (double& entry : M.reshaped()) entry = part(random) < 0.4 ? 0.0 : part(random);
-    const double radius = M.eigenvalues().cwiseAbs().maxCoeff();
+    const double radius = SpectralRadius(M);
     if (!(radius > 0.1)) continue;
     EXPECT_FALSE(Contraction::Of(Matrix6d(1.02 / radius * M)));
     const Matrix6d less = 0.8 / radius * M;
     const auto found = Contraction::Of(less);
     if (!found) continue;
     const Vector6d u = Vector6d::Unit(k % 6);
-    const Vector6d exact = (Matrix6d::Identity() - less).partialPivLu().solve(u);
+    const Vector6d exact = Solved(Matrix6d::Identity() - less, u);
     const Vector6d resolved = found->Resolve(less, u);
     EXPECT_GE((resolved - exact).minCoeff(), -1e-12);
   }

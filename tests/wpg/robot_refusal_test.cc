@@ -5,10 +5,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <regex>
 #include <string>
 
 #include "tests/fixture_check.h"
+#include "tests/patterns.h"
 #include "tests/replaced.h"
 #include "tests/wpg/generated_robots.h"
 #include "wpg/files/input_error.h"
@@ -35,9 +35,9 @@ TEST(RobotRefusal, JointLimitsMoreThanATurnApart) {
   const GeneratedRobot robot = GeneratedRobots()[0];
   const std::string yaml = GeneratedYaml(robot, "robot.urdf");
   const auto with_limits = [&](const std::string& limit) {
-    const std::string lower = std::regex_replace(GeneratedUrdf(robot), std::regex("lower='[^']*'"),
-                                                 "lower='-" + limit + "'");
-    return std::regex_replace(lower, std::regex("upper='[^']*'"), "upper='" + limit + "'");
+    const std::string lower =
+        AllReplaced(GeneratedUrdf(robot), "lower='[^']*'", "lower='-" + limit + "'");
+    return AllReplaced(lower, "upper='[^']*'", "upper='" + limit + "'");
   };
   EXPECT_THAT(RefusalOf({"wide", with_limits("3.2"), yaml}),
               HasSubstr("left_joint0: its limits are more than a turn apart (valid: at most 360 "));

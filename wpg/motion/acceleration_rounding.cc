@@ -68,7 +68,7 @@ Vector6d AccelerationRounding(const IntervalMotion& motion, const RobotDynamics&
   // Of the waist: how its errors move what hangs on it.
   const Vector6d hung = last - of_waist, hung1 = last1 - about(dynamics.waist().acceleration);
   const double w = hung.head<3>().norm(), v = hung.tail<3>().norm(), w1 = hung1.head<3>().norm();
-  const double arm = pole.norm(), place = motion.rounding.origin + arm * waist.turn;
+  const double arm = pole.norm(), place = waist.place + arm * waist.turn;
   const double sole_off = off.value.segment<3>(foot).sum() + 4.0 * kRoundoff * arm;
   const double sole1_off = off.first.segment<3>(foot).sum();
   // All but what is of first order in the errors of angles and speeds.

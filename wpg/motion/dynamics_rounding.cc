@@ -244,12 +244,14 @@ DynamicsRounding DynamicsRounding::At(const RobotModel& robot, const IntervalMot
   off.known = IsFinite(off.waist);
   off.sums = {off.waist.moment, off.waist.force};
   const Eigen::Isometry3d& X_WB = motion.posture.X_WB;
+  BodyRounding hung_on = off.waist;  // whose place is that of its origin
+  hung_on.place = motion.rounding.origin;
   for (const Side side : {Side::kLeft, Side::kRight}) {
     Vector6d& accelerations = Nth(off.accelerations, Index(side));
-    accelerations = AccelerationRounding(motion, at_m, off.waist, side, gravity);
+    accelerations = AccelerationRounding(motion, at_m, hung_on, side, gravity);
     auto& links = Nth(off.legs, Index(side));
     LegWay way(side, motion, at_m, accelerations);
-    way.Down(off.waist, at_m.waist(), X_WB.translation() - at_m.O(), &links);
+    way.Down(hung_on, at_m.waist(), X_WB.translation() - at_m.O(), &links);
     way.Up(OfSole(side, motion, at_m, gravity), &links);
     off.known = off.known && accelerations.allFinite();
     for (const BodyRounding& link : links) {

@@ -6,6 +6,7 @@
 
 #include "wpg/motion/spatial.h"
 #include "wpg/nth.h"
+#include "wpg/robot/placing_rounding.h"
 #include "wpg/rounded.h"
 
 namespace halfstep {
@@ -17,32 +18,18 @@ constexpr double kU = kRoundoff;
 
 double Sum(const Vector3d& x) { return x.cwiseAbs().sum(); }
 
-// S of a matrix R(1 + S) that is nearly a rotation R, S symmetric.
-double Skew(const Eigen::Matrix3d& R) {
-  return 0.5 * (R.transpose() * R - Eigen::Matrix3d::Identity()).norm() + 16.0 * kU;
-}
-
-// How far axes' directions and points of a leg may be from those of the exact leg at these angles:
-// PlaceLeg turns about axes that it has turned.
+// How far axes' directions and points of a leg may be from those of the exact leg at these angles.
 struct Placing {
   double turn = 0.0, place = 0.0;
 };
 
 Placing PlacingOf(const LegFrames& frames, const Vector6d& q, double chain, double skew_of_links) {
-  // R(1 + S) in place of R: a joint carries R along, but for what S does to its axis and to turning
-  // about that, |sin q| + 2(1 − cos q) times as much.
-  double skew = 0.0, most = 0.0;
-  Placing placing;
+  PlacingRounding rounding;
   for (size_t j = 0; j < 6; ++j) {
-    const double angle = std::abs(q[static_cast<Eigen::Index>(j)]);
-    const double more = std::min(angle + angle * angle, 4.3);
-    placing.turn += more * skew + (24.0 + 40.0 * std::min(angle, 1.3)) * kU;
-    skew = Skew(frames.X_BLink[j].linear()) + skew_of_links;
-    most = std::max(most, skew);
+    rounding.Turned(q[static_cast<Eigen::Index>(j)],
+                    SkewOf(frames.X_BLink[j].linear()) + skew_of_links);
   }
-  placing.turn += most;
-  placing.place = placing.turn * chain + 100.0 * kU * chain;
-  return placing;
+  return {rounding.turn(), rounding.turn() * chain + 100.0 * kU * chain};
 }
 
 // Norms of the two halves of a matrix's rows.
@@ -72,7 +59,7 @@ RoundingOfPostures::RoundingOfPostures(const RobotModel& robot)
       chain += (joint.point_B - at).norm();
       at = joint.point_B;
       link = std::max(link, (joint.X_BLink.translation() - at).norm());
-      skew = std::max(skew, Skew(joint.X_BLink.linear()));
+      skew = std::max(skew, SkewOf(joint.X_BLink.linear()));
     }
     chain += (leg.X_BSole.translation() - at).norm();
     for (const BodyMass& mass : robot.masses.links[s]) {
@@ -166,19 +153,17 @@ LegRounding RoundingOfPostures::OfLeg(Side side, const WalkJet& jet, const WalkJ
   const Vector6d missing = twist - J * speeds;
   const double all = speeds.cwiseAbs().sum();
   const double parts = v.segment<3>(foot).norm() + posture.waist_velocity.norm() + rate * lever;
-  // H, and what the angles' errors do to the columns of J, to first order; and all beyond.
-  Matrix6d H = Matrix6d::Zero();
-  double bent_turn = 0.0, bent_place = 0.0;
-  for (Eigen::Index l = 0; l < 5; ++l) {
-    for (Eigen::Index j = l + 1; j < 6; ++j) {
-      const Vector6d change = CrossMotion(J.col(l), J.col(j));
-      H.col(l) += speeds[j] * change;
-      bent_turn += rounding.q[l] * change.head<3>().norm();
-      bent_place += rounding.q[l] * change.tail<3>().norm();
-    }
+  Matrix6d H;
+  Vector6d after = Vector6d::Zero();  // V₆ − V_l
+  for (Eigen::Index l = 5; l >= 0; --l) {
+    H.col(l) = CrossMotion(J.col(l), after);
+    after += speeds[l] * J.col(l);
   }
+  // What the angles' errors do to the columns of J: at most five that each joint turns, by brackets
+  // of screws to first order; and all beyond.
+  const double bent_turn = 5.0 * rounding.q.sum();
   const double beyond = 32.0 * turned * (turned + 64.0 * kU);
-  rounding.of_inverse = left + rows.Of(bent_turn + beyond, bent_place + chain * beyond);
+  rounding.of_inverse = left + rows.Of(bent_turn + beyond, chain * (2.0 * bent_turn + beyond));
   LegRounding::OfSole& of_twist = rounding.twist;
   of_twist.turn = missing.head<3>().norm() + waist.rate + walk.first[foot + 3] + of_axes * all +
                   16.0 * kU * (all + rate + std::abs(v[foot + 3])) + beyond * all;

@@ -18,7 +18,7 @@ std::optional<Vector> Bootstrap(const Vector& at_midpoint, double h, const Rate&
     if (!rates) return std::nullopt;
     const Vector change = h * *rates;
     const Vector implied = at_midpoint + change;
-    if ((implied.array() < assumed.array()).all()) return implied;
+    if (((1.0 + 0x1p-43) * implied.array() < assumed.array()).all()) return implied;  // rounded
     assumed = at_midpoint + 1.2 * change + Vector::Constant(1e-9);
   }
   return std::nullopt;

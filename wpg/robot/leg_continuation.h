@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 
+#include "wpg/robot/leg_rounding.h"
 #include "wpg/robot/robot_model.h"
 
 namespace halfstep {
@@ -14,6 +15,8 @@ struct SoleDrift {
   double yaw_rate = 0.0;              ///< at m [rad/s]
   double acceleration = 0.0;          ///< of its origin, sup [m/s²]
   double yaw_acceleration = 0.0;      ///< sup [rad/s²]
+  /// How far rounding may carry its pose and its twist at m; what they leave is not used.
+  LegRounding::OfSole pose_off = {}, twist_off = {};
 
   /// sup of |dV/dt| [m/s²] of the linear part of the sole's twist V about the waist-fixed point
   /// `about` when the sole is at p_BSole at m.
@@ -32,11 +35,15 @@ struct LegContinuation {
 /// Joint angles that bring the sole of a leg without closed form to X_BSole: those of the
 /// closed-form leg `met` in its branch, continued while its axes move to the leg's own and the sole
 /// stays. That is the leg's branch: a function of the pose that is continuous wherever it is
-/// defined, because a way with a regular Jacobian has one lift. Proved step by step: the lift
-/// exists and stays near, and the next posture is on it. Deterministic; at most 64 steps.
-/// With a drift, the same is proved for every pose that the sole takes in the interval, X_BSole
-/// being that at m and level. Source: wpg/README.md, "Offset hips and ankles".
-LegContinuation ContinueLeg(const Leg& leg, const Eigen::Isometry3d& X_BSole,
-                            const SoleDrift& drift = {});
+/// defined, because a way with a regular Jacobian has one lift. Found step by step, where the lift
+/// exists and stays near, and the next posture is on it. Deterministic; at most 64 steps. Source:
+/// wpg/README.md, "Offset hips and ankles".
+LegContinuation ContinueLeg(const Leg& leg, const Eigen::Isometry3d& X_BSole);
+
+/// Whether the exact leg is proved to stay in its branch for every pose that the sole takes in an
+/// interval; X_BSole is that at m and level, where the angles are `q` with an error of at most
+/// `off` [rad]. Rounding is part of the proof.
+bool StaysInBranch(const Leg& leg, const Eigen::Isometry3d& X_BSole, const SoleDrift& drift,
+                   const Vector6d& q, const Vector6d& off);
 
 }  // namespace halfstep

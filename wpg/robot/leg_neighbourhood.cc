@@ -7,11 +7,15 @@
 #include "wpg/check.h"
 #include "wpg/nth.h"
 #include "wpg/robot/paden_kahan.h"
+#include "wpg/robot/placing_rounding.h"
 
 namespace halfstep {
 namespace {
 
 using Eigen::Vector3d;
+
+// Of sums of terms that are ≥ 0, for their rounding.
+constexpr double kSums = 1.0 + 0x1p-43;
 
 Eigen::Index Pair(int l, int j) { return j * (j - 1) / 2 + l; }
 
@@ -32,6 +36,7 @@ void LegNeighbourhood::Place(const Leg& leg, const Vector6d& q, double share, Ma
   Vector3d t(0, 0, 0), t_rate(0, 0, 0);  // x ↦ R x + t, and dt/dshare
   Vector3d last = leg.hip_B, last_met = leg.hip_B, last_offset(0, 0, 0);
   double lever = 0.0, offsets = 0.0;
+  PlacingRounding rounding;
   std::array<Vector3d, 6> moves;
   for (size_t j = 0; j < 6; ++j) {
     const Vector3d own = leg.AxisPoint(j), its = met.AxisPoint(j), offset = own - its;
@@ -48,6 +53,7 @@ void LegNeighbourhood::Place(const Leg& leg, const Vector6d& q, double share, Ma
     for (int column = 0; column < 3; ++column) {
       R.col(column) = Rotate(axis, turn, Vector3d(R.col(column)));
     }
+    rounding.Turned(q[k], SkewOf(R));
     t = point - R * at_zero;
     t_rate = point_rate - R * offset;
   }
@@ -57,6 +63,12 @@ void LegNeighbourhood::Place(const Leg& leg, const Vector6d& q, double share, Ma
   X_BSole_ = Eigen::Isometry3d::Identity();
   X_BSole_.linear() = R * leg.X_BSole.linear();
   X_BSole_.translation() = R * (sole_met + share * sole_offset) + t;
+  // Sums of a dozen products as large as the leg or its offsets, beside the turned directions.
+  const double size =
+      leg.hip_B.norm() + lever + offset_[6] + (leg.X_BSole.translation() - last).norm();
+  turn_off_ = rounding.turn() + 64.0 * kRoundoff;
+  place_off_ = turn_off_ * size + 128.0 * kRoundoff * size;
+  share_off_ = 16.0 * turn_off_ * offset_[6];
   by_share_ << Vector3d::Zero(), -(R * sole_offset + t_rate);
   for (size_t j = 0; j < 6; ++j) {
     share_change_.col(static_cast<Eigen::Index>(j)) << Vector3d::Zero(), moves[j];
@@ -80,6 +92,9 @@ std::optional<LegNeighbourhood> LegNeighbourhood::Around(const Leg& leg, const V
   here.brackets_.noalias() = here.inverse_ * brackets;
   here.angular_ = here.inverse_.leftCols<3>().rowwise().norm();
   here.linear_ = here.inverse_.rightCols<3>().rowwise().norm();
+  here.off_ = (here.inverse_ * J - Matrix6d::Identity()).cwiseAbs();
+  here.off_.colwise() += here.AskedAnyWay(2.0 * here.turn_off_, 3.0 * here.place_off_);
+  here.brackets_off_ = here.AskedAnyWay(4.0 * here.turn_off_, 16.0 * here.place_off_);
   here.by_share_ = here.inverse_ * Vector6d(here.by_share_);
   here.share_change_ = here.inverse_ * Matrix6d(here.share_change_);
   return here;
@@ -97,14 +112,16 @@ Vector6d LegNeighbourhood::Bend(const Vector6d& speeds) const {
 // angular part of at most 1 and a linear part of at most the levers of the three joints in play.
 // The share moves ξ_j's line by a vector that turns with the same joints.
 Matrix6d LegNeighbourhood::Change(const Vector6d& radius, double share) const {
-  Matrix6d change = share * share_change_.cwiseAbs();
+  Matrix6d change = off_ + share * share_change_.cwiseAbs();
+  change.colwise() += share * ByShareRounding();
   double turn = 0.0, swing = 0.0;  // Σ_{l<j} of the radii, and times the lever
   for (int j = 1; j < 6; ++j) {
     turn += radius[j - 1];
     swing += radius[j - 1] * lever_[j - 1];
     const double half = 0.5 * turn * turn;
     const double line = share * 2.0 * turn * Nth(offset_, j);
-    change.col(j) += half * angular_ + (half * lever_[j] + turn * swing + line) * linear_;
+    change.col(j) +=
+        half * angular_ + (half * lever_[j] + turn * swing + line) * linear_ + turn * brackets_off_;
     for (int l = 0; l < j; ++l) change.col(j) += radius[l] * brackets_.col(Pair(l, j)).cwiseAbs();
   }
   return change;
@@ -119,7 +136,8 @@ Vector6d LegNeighbourhood::Bending(const Vector6d& speeds, const Vector6d& radiu
     for (int l = 0; l < j; ++l) {
       const double lever = turn * (lever_[j] + lever_[l]) + swing;
       bending += speeds[l] * speeds[j] *
-                 (brackets_.col(Pair(l, j)).cwiseAbs() + turn * angular_ + lever * linear_);
+                 (brackets_.col(Pair(l, j)).cwiseAbs() + turn * angular_ + lever * linear_ +
+                  brackets_off_);
     }
   }
   return bending;
@@ -129,11 +147,15 @@ Vector6d LegNeighbourhood::Asked(double yaw, double velocity) const {
   return yaw * inverse_.col(2).cwiseAbs() + velocity * linear_;
 }
 
+Vector6d LegNeighbourhood::AskedAnyWay(double turn, double velocity) const {
+  return turn * angular_ + velocity * linear_;
+}
+
 // Going along the path, ways ℓ ≤ asked + Change·ℓ hold as far as they are within the radius; and
 // they would have to pass what is implied before they pass that.
 std::optional<Vector6d> LegNeighbourhood::Ways(const Vector6d& asked, double share) const {
   constexpr double kFar = 1.0;  // [rad]
-  const Vector6d here = asked + share * by_share_.cwiseAbs();
+  const Vector6d here = asked + share * (by_share_.cwiseAbs() + ByShareRounding());
   Vector6d radius = 1.1 * here + Vector6d::Constant(1e-12);
   for (int attempt = 0; attempt < 12; ++attempt) {
     Vector6d implied = here + Change(radius, share) * radius;
@@ -142,7 +164,7 @@ std::optional<Vector6d> LegNeighbourhood::Ways(const Vector6d& asked, double sha
       turn += radius[static_cast<Eigen::Index>(j)];
       turned += turn * (offset_[j + 1] - offset_[j]);
     }
-    implied += share * turned * linear_;
+    implied = kSums * (implied + share * turned * linear_);
     if ((implied.array() < radius.array()).all()) return implied;
     if (!(implied.maxCoeff() < kFar)) return std::nullopt;
     radius = 1.1 * implied + Vector6d::Constant(1e-12);
@@ -167,13 +189,14 @@ std::optional<Contraction> Contraction::Of(const Matrix6d& M) {
   Vector6d v = Vector6d::Ones();
   for (int k = 0; k < 8; ++k) v = Vector6d::Ones() + M * v;
   const double share = (M * v).cwiseQuotient(v).maxCoeff();
-  if (!(share < 1.0)) return std::nullopt;
+  if (!(share < 1.0 - 0x1p-20)) return std::nullopt;
   return Contraction{v, share};
 }
 
-// With u ≤ κv, κv/(1 − share) is an upper bound; every further round keeps that and lowers it.
+// With u ≤ κv, κv/(1 − share) is an upper bound, but for rounding; every further round keeps that
+// and lowers it.
 Vector6d Contraction::Resolve(const Matrix6d& M, const Vector6d& u) const {
-  Vector6d x = u.cwiseQuotient(weights).maxCoeff() / (1.0 - share) * weights;
+  Vector6d x = (1.0 + 0x1p-28) * u.cwiseQuotient(weights).maxCoeff() / (1.0 - share) * weights;
   for (int k = 0; k < 6; ++k) x = u + M * x;
   return x;
 }

@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Sups of q̈ given sups of q̇: (I + J⁻¹ΔJ) q̈ = J⁻¹(V̇ − J̇q̇), with J⁻¹ that at m.
+// Sups of q̈ given sups of q̇: YJ q̈ = Y(V̇ − J̇q̇), with Y ≈ J⁻¹ at m.
 class OffsetJoints {
  public:
   OffsetJoints(const LegNeighbourhood& near, double rate, const SoleDrift& drift,
@@ -72,10 +72,13 @@ std::array<TurnBound, 6> Turns(const LegFrames& frames, const Vector6d& at_m,
 
 std::optional<JointBounds> BoundOffsetJoints(const Leg& leg, const Vector6d& q,
                                              const LegFrames& frames, const Vector6d& speeds,
-                                             const SoleDrift& drift, const LegRounding& off) {
+                                             const SoleDrift& of_sole, const LegRounding& off) {
   const Eigen::Isometry3d& X_BSole = frames.X_BLink[6];
+  SoleDrift drift = of_sole;
+  drift.pose_off = off.pose;
+  drift.twist_off = off.twist;
   const auto near = LegNeighbourhood::Around(leg, q);
-  if (!near || !ContinueLeg(leg, X_BSole, drift).arrived) return std::nullopt;
+  if (!near || !StaysInBranch(leg, X_BSole, drift, q, off.q)) return std::nullopt;
   const double h = drift.half_width;
   const OffsetJoints joints(*near, drift.TwistRate(leg.hip_B, X_BSole.translation()), drift, off.q);
   Vector6d accelerations;

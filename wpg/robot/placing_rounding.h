@@ -1,0 +1,37 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+
+#include "wpg/rounded.h"
+
+namespace halfstep {
+
+/// ‖S‖, or more, of a matrix R(1 + S) that is nearly the rotation R, S symmetric.
+inline double SkewOf(const Eigen::Matrix3d& R) {
+  return 0.5 * (R.transpose() * R - Eigen::Matrix3d::Identity()).norm() + 16.0 * kRoundoff;
+}
+
+/// How far directions may be from those of the exact leg at the same angles, where each joint turns
+/// about an axis that those before it have turned. R(1 + S) stands for a rotation R; a joint
+/// carries R along, but for what S does to its axis and to turning about that, |sin q| + 2(1 − cos
+/// q) times as much. Source: smoothing/README.md, "Rounding", 3.
+class PlacingRounding {
+ public:
+  /// A joint turned by `angle` [rad], after which a matrix that it turned has that `skew`.
+  void Turned(double angle, double skew) {
+    angle = std::abs(angle);
+    turn_ += std::min(angle + angle * angle, 4.3) * skew_ +
+             (24.0 + 40.0 * std::min(angle, 1.3)) * kRoundoff;
+    skew_ = skew;
+    most_ = std::max(most_, skew);
+  }
+  /// Of any direction that was turned so far [rad].
+  double turn() const { return turn_ + most_; }
+
+ private:
+  double turn_ = 0.0, skew_ = 0.0, most_ = 0.0;
+};
+
+}  // namespace halfstep
