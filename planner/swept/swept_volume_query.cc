@@ -63,11 +63,16 @@ SweptVolumeQuery::SweptVolumeQuery(const SweptVolumes& volumes,
   only_places_.reserve(scene.obstacles.size());
   for (const Obstacle& obstacle : scene.obstacles) {
     only_places_.push_back(obstacle.motion.waypoints.empty() ? static_cast<int>(all.size()) : -1);
-    const Prepared prepared = Prepare(obstacle);
-    for (const ObstaclePlace& place : PlacesOf(obstacle, until)) {
-      all.push_back(place);
-      places_.push_back(prepared);
-      places_.back().extra += place.extra;
+    Prepared prepared = Prepare(obstacle);
+    const std::vector<ObstaclePlace> its = PlacesOf(obstacle, until);
+    for (size_t i = 0; i < its.size(); ++i) {
+      all.push_back(its[i]);
+      if (i + 1 < its.size()) {
+        places_.push_back(prepared);
+      } else {
+        places_.push_back(std::move(prepared));
+      }
+      places_.back().extra += its[i].extra;
     }
   }
   for (const GroundSolid& solid : ground_->Solids()) {
