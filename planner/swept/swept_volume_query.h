@@ -59,7 +59,6 @@ class SweptVolumeQuery : public HalfStepQuery {
   void SetObstaclePose(int obstacle, const Eigen::Isometry3d& X_WO);
 
  private:
-  friend class StanceQuery;
   struct Mesh {
     explicit Mesh(const TriangleMesh& mesh) : triangles(mesh), interior(mesh) {}
     TriangleTree triangles;
