@@ -118,11 +118,19 @@ PastWorlds::Track* PastWorlds::Find(const std::string& name, size_t* likely) con
   return was_there ? it->second.get() : nullptr;
 }
 
+void PastWorlds::Fetch(size_t likely) const {
+  constexpr size_t kAhead = 6, kLine = 64;  // tracks; bytes
+  if (likely + kAhead >= recent_.size()) return;
+  const char* const track = reinterpret_cast<const char*>(recent_[likely + kAhead]);
+  for (size_t at = 0; at < sizeof(Track); at += kLine) __builtin_prefetch(track + at);
+}
+
 void PastWorlds::Add(const World& world) {
   std::vector<Track*> now;
   now.reserve(world.scene.obstacles.size());
   size_t likely = 0;
   for (const Obstacle& obstacle : world.scene.obstacles) {
+    Fetch(likely);
     Track* track = Find(obstacle.name, &likely);
     if (track == nullptr) {
       std::unique_ptr<Track>& begun = tracks_[obstacle.name];
@@ -164,6 +172,7 @@ std::vector<Contradiction> PastWorlds::Latest(const World& now, int since) const
   };
   size_t likely = 0;
   for (const Obstacle& obstacle : now.scene.obstacles) {
+    Fetch(likely);
     const Track* track = Find(obstacle.name, &likely);
     const Place* place = track ? Latest(*track, obstacle, since) : nullptr;
     add(obstacle.name, place   ? Between(*track, *place, obstacle)
@@ -191,12 +200,21 @@ const PastWorlds::Place* PastWorlds::Latest(const Track& track, const Obstacle& 
     } else if (clears(end, kRun, track.runs)) {
       end -= kRun;
     } else {
-      // One by one to the beginning of the run.
+      // One by one to the beginning of the run: Between().beyond(), without making it.
       const size_t begin = (end - 1) / kRun * kRun;
+      const Like* like = nullptr;
+      double turned = 0.0;
       for (; end > begin; --end) {
         const Place& place = track.places[end - 1];
         if (place.version < since) return nullptr;
-        if (Between(track, place, now).beyond() > kRoundingOfPlaces) return &place;
+        if (const Like& its = Nth(track.likes, place.like); like != &its) {
+          like = &its;
+          turned = TurnBetween(its.axes, now.X_WO.linear()) * track.radius;
+        }
+        const double moved = (now.X_WO.translation() - place.p_WO).norm() + turned;
+        const double elapsed = now.motion.measured_at - place.measured_at;
+        const double allowed = like->error + now.motion.error + like->speed * elapsed;
+        if (moved - allowed > kRoundingOfPlaces) return &place;
       }
     }
   }

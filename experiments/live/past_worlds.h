@@ -73,6 +73,9 @@ class PastWorlds {
   // The track of an obstacle that was there in the last world; null: it was not. In most worlds
   // obstacles are there in the same order: `likely` is where it is there, and then the next one.
   Track* Find(const std::string& name, size_t* likely) const;
+  // Lets memory bring the track that is there in the last world a little behind that place: among
+  // many obstacles none is at hand any more.
+  void Fetch(size_t likely) const;
   // But for its name.
   static Contradiction Between(const Track& track, const Place& before, const Obstacle& now);
   static bool MayContradict(const Run& run, const Obstacle& now, double radius);

@@ -16,13 +16,14 @@ using Eigen::Vector3d;
 
 // Visits the solid boxes that the placed box meets until `accept(node, child)` is true.
 template <typename Accept>
-bool Descend(const BoxTree& tree, const LatticeBoxTest& test, const Accept& accept) {
+bool Descend(const BoxTree& tree, const BoxNode* root, const LatticeBoxTest& test,
+             const Accept& accept) {
   if (tree.nodes.empty()) return false;
   int32_t stack[BoxTree::kStack];
   int top = 0;
-  stack[top++] = 0;
-  while (top > 0) {
-    const BoxNode& node = Nth(tree.nodes, stack[--top]);
+  const BoxNode* next = root != nullptr ? root : tree.nodes.data();
+  while (true) {
+    const BoxNode& node = *next;
     for (int hits = test.Hits(node); hits != 0; hits &= hits - 1) {
       const int c = std::countr_zero(static_cast<unsigned>(hits));
       const int32_t child = node.child[c];
@@ -33,8 +34,9 @@ bool Descend(const BoxTree& tree, const LatticeBoxTest& test, const Accept& acce
         return true;
       }
     }
+    if (top == 0) return false;
+    next = &Nth(tree.nodes, stack[--top]);
   }
-  return false;
 }
 
 struct Bounds {
@@ -77,18 +79,18 @@ bool MeetsBox(const RoundBody& body, const Vector3d& center, const Matrix3d& axe
 
 }  // namespace
 
-bool Meets(const BoxTree& tree, const OrientedBox& box, double extra) {
+bool Meets(const BoxTree& tree, const OrientedBox& box, double extra, const BoxNode* root) {
   LatticeBoxTest test(tree, box.axes, extra);
   test.Place(box.center, box.half);
-  return Descend(tree, test, [](const BoxNode&, int) { return true; });
+  return Descend(tree, root, test, [](const BoxNode&, int) { return true; });
 }
 
 bool Meets(const BoxTree& tree, const RoundBody& body, const Vector3d& center, const Matrix3d& axes,
-           double extra) {
+           double extra, const BoxNode* root) {
   LatticeBoxTest test(tree, axes, extra);
   const double across = body.disc_radius + body.ball_radius;
   test.Place(center, {across, across, body.half_length + body.ball_radius});
-  return Descend(tree, test, [&](const BoxNode& node, int c) {
+  return Descend(tree, root, test, [&](const BoxNode& node, int c) {
     return MeetsBox(body, center, axes, ChildBounds(tree, node, c, extra));
   });
 }

@@ -13,8 +13,12 @@ namespace halfstep {
 /// `extra` [m] ≥ 0: the region's boxes count as larger by this on every side; a "no" then says that
 /// the region is more than `extra` away.
 
+/// `root`: a copy of the tree's first node, which is nearer at hand than the node itself; null:
+/// none.
+
 /// For a box. Exact within 1e-5 of the coordinates and sizes.
-bool Meets(const BoxTree& tree, const OrientedBox& box, double extra = 0.0);
+bool Meets(const BoxTree& tree, const OrientedBox& box, double extra = 0.0,
+           const BoxNode* root = nullptr);
 
 /// A sphere, capsule or cylinder: the sum of a segment on the local z axis, a disc in the local xy
 /// plane and a ball.
@@ -26,7 +30,7 @@ struct RoundBody {
 /// For a round body at (axes, center). Exact but for bodies so near that 64 alternating projections
 /// do not tell: these meet.
 bool Meets(const BoxTree& tree, const RoundBody& body, const Eigen::Vector3d& center,
-           const Eigen::Matrix3d& axes, double extra = 0.0);
+           const Eigen::Matrix3d& axes, double extra = 0.0, const BoxNode* root = nullptr);
 
 /// For the triangles of a mesh at (axes, origin): its surface only.
 bool Meets(const BoxTree& tree, const TriangleTree& mesh, const Eigen::Vector3d& origin,

@@ -63,11 +63,16 @@ SweptVolumeQuery::SweptVolumeQuery(const SweptVolumes& volumes,
   only_places_.reserve(scene.obstacles.size());
   for (const Obstacle& obstacle : scene.obstacles) {
     only_places_.push_back(obstacle.motion.waypoints.empty() ? static_cast<int>(all.size()) : -1);
-    const Prepared prepared = Prepare(obstacle);
-    for (const ObstaclePlace& place : PlacesOf(obstacle, until)) {
-      all.push_back(place);
-      places_.push_back(prepared);
-      places_.back().extra += place.extra;
+    Prepared prepared = Prepare(obstacle);
+    const std::vector<ObstaclePlace> its = PlacesOf(obstacle, until);
+    for (size_t i = 0; i < its.size(); ++i) {
+      all.push_back(its[i]);
+      if (i + 1 < its.size()) {
+        places_.push_back(prepared);
+      } else {
+        places_.push_back(std::move(prepared));
+      }
+      places_.back().extra += its[i].extra;
     }
   }
   for (const GroundSolid& solid : ground_->Solids()) {
@@ -93,9 +98,12 @@ OrientedBox SweptVolumeQuery::Seen(const Placed& placed, const Prepared& obstacl
 bool SweptVolumeQuery::MeetsObstacle(const BoxTree& tree, const Placed& placed,
                                      const Prepared& obstacle, const OrientedBox& around,
                                      double extra) const {
-  if (std::holds_alternative<std::monostate>(obstacle.shape)) return Meets(tree, around, extra);
+  const BoxNode* root = &placed.bounds.root;
+  if (std::holds_alternative<std::monostate>(obstacle.shape)) {
+    return Meets(tree, around, extra, root);
+  }
   if (const auto* round = std::get_if<RoundBody>(&obstacle.shape)) {
-    return Meets(tree, *round, around.center, around.axes, extra);
+    return Meets(tree, *round, around.center, around.axes, extra, root);
   }
   const Mesh& mesh = *std::get<std::shared_ptr<const Mesh>>(obstacle.shape);
   const Matrix3d R = RotationInto(placed.cos, placed.sin, placed.mirrored);
@@ -114,7 +122,7 @@ bool SweptVolumeQuery::MeetsObstacle(const BoxTree& tree, const Placed& placed,
 bool SweptVolumeQuery::IsFree(const Placed& placed, double extra) const {
   HALFSTEP_CHECK(placed.X_WS.AllFinite(), "the sole's pose is not finite");
   if (!placed.volume || (level_ && placed.X_WS.height != *level_)) return false;
-  __builtin_prefetch(placed.bounds.root);
+  __builtin_prefetch(&placed.bounds.root);
   __builtin_prefetch(&*placed.volume);
   if (tree_.nodes.empty()) return true;
   if (tree_.nodes[0].left < 0) return !MeetsLeaf(placed, tree_.nodes[0], extra);
@@ -227,12 +235,13 @@ std::vector<SweptVolumeQuery::Bounds> SweptVolumeQuery::BoundsOf(
   std::vector<Bounds> all;
   for (const auto& tree : volumes) {
     // Of nothing: a box that none reaches.
-    Bounds bounds{.middle = Vector3d::Constant(1e30), .half = Vector3d::Zero(), .root = nullptr};
+    Bounds bounds{.middle = Vector3d::Constant(1e30), .half = Vector3d::Zero(), .root = {}};
     if (tree && !tree->nodes.empty()) {
       const Vector3d lower = tree->Lower(), upper = tree->Upper();
       bounds = {.middle = 0.5 * (lower + upper),
                 .half = 0.5 * (upper - lower),
-                .root = tree->nodes.data()};
+                .empty = false,
+                .root = tree->nodes.front()};
     }
     all.push_back(bounds);
   }

@@ -59,7 +59,6 @@ class SweptVolumeQuery : public HalfStepQuery {
   void SetObstaclePose(int obstacle, const Eigen::Isometry3d& X_WO);
 
  private:
-  friend class StanceQuery;
   struct Mesh {
     explicit Mesh(const TriangleMesh& mesh) : triangles(mesh), interior(mesh) {}
     TriangleTree triangles;
@@ -85,10 +84,11 @@ class SweptVolumeQuery : public HalfStepQuery {
   struct Cylinders {
     float x[4], y[4], radius[4], z[4], half_height[4];
   };
-  // A volume's bounds, apart from its tree: most queries read nothing else.
+  // A volume's bounds and first node, apart from its tree: most queries read nothing else.
   struct Bounds {
     Eigen::Vector3d middle, half;
-    const BoxNode* root = nullptr;  // to be fetched while obstacles are culled
+    bool empty = true;
+    BoxNode root;
   };
   struct Placed {
     const std::optional<BoxTree>& volume;

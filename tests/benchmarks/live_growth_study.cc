@@ -123,7 +123,8 @@ void PrintRow(LiveConfig config, int obstacles, double way, int half_steps) {
     World measured = Measure(truth, 30.0, config.live, random);
     measured = Updated(known.last, known.past, std::move(measured), config.live).world;
   });
-  const double prepare = Median([&] { (void)replanner.Prepare(known.last); });
+  const auto held = std::make_shared<const World>(known.last);
+  const double prepare = Median([&] { (void)replanner.Prepare(held); });
   const auto start = StartOf(config.experiment, place.robot, *place.scene.ground);
   const Proposal walk = replanner.Begin(start, *replanner.Prepare(known.last), 0, random);
   if (walk.kind != ProposalKind::kChanged) {

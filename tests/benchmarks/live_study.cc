@@ -5,9 +5,9 @@
 // Default: seeds 1 … 100, policy replan, one thread; no episode begins after so many minutes. The
 // policy `wall` is replan by the wall clock, `counted` replan in lockstep that charges what was
 // counted, 1 s a unit of effort. `events` prints what happened in one episode; `tables` walks
-// episodes in lockstep and does nothing else, and prints the hash of each one's tables: a change
-// that only makes replanning cheaper leaves them as they are (callgrind counts what it saves).
-// HRP-2's swept volumes from the user's cache, baked when they are not there.
+// episodes and does nothing else, and prints the hash of each one's tables, and what answers cost:
+// a change that only makes replanning cheaper leaves the hashes as they are (callgrind counts what
+// it saves). HRP-2's swept volumes from the user's cache, baked when they are not there.
 
 #include <cstdio>
 #include <map>
@@ -88,13 +88,16 @@ int main(int argc, char** argv) {
   if (argument(0, "") == "tables") {
     const LiveStudy tabled = MakeStudy(argument(3, "replan"));
     const std::uint64_t first = std::stoull(argument(1, "1"));
+    std::vector<Answered> answers;
     for (std::uint64_t seed = first; seed < first + std::stoull(argument(2, "1")); ++seed) {
       const WalkedEpisode walked = WalkOnly(tabled, seed);
       std::printf("%llu %s %zu walks %s\n", static_cast<unsigned long long>(seed),
                   std::string(Name(walked.episode.ending)).c_str(), walked.episode.walks.size(),
                   walked.tables.c_str());
       std::fflush(stdout);
+      answers.insert(answers.end(), walked.answers.begin(), walked.answers.end());
     }
+    PrintSpent(answers);
     return 0;
   }
   const LiveStudy study = MakeStudy(argument(2, "replan"));
@@ -105,7 +108,11 @@ int main(int argc, char** argv) {
   std::printf("\n");
   PrintTable(episodes);
   std::printf("\n");
-  PrintSpent(episodes);
+  std::vector<Answered> answers;
+  for (const StudiedEpisode& episode : episodes) {
+    answers.insert(answers.end(), episode.answers.begin(), episode.answers.end());
+  }
+  PrintSpent(answers);
   std::printf("\n");
   PrintHistogram(episodes);
   for (const StudiedEpisode& episode : episodes) {

@@ -119,7 +119,7 @@ void PrintTable(const Episodes& episodes) {
   Line("computing for each second of walk", Formatted("%.2f s", cpu / walked), "");
 }
 
-void PrintSpent(const Episodes& episodes) {
+void PrintSpent(const std::vector<Answered>& answers) {
   std::printf(
       "| part of an answer | answers | counted, median, p99 [ms] | processor, median, p99 [ms] | "
       "processor for each unit counted |\n|---|---|---|---|---|\n");
@@ -127,14 +127,12 @@ void PrintSpent(const Episodes& episodes) {
                         const std::function<double(const Spent&)>& of, bool prepared = false) {
     std::vector<double> counted, taken;
     double all_counted = 0.0, all_taken = 0.0;
-    for (const StudiedEpisode& episode : episodes) {
-      for (const Answered& answer : episode.answers) {
-        if (answer.kind != kind) continue;
-        counted.push_back(of(answer.effort));
-        taken.push_back(prepared ? answer.asking : of(answer.seconds));
-        all_counted += counted.back();
-        all_taken += taken.back();
-      }
+    for (const Answered& answer : answers) {
+      if (answer.kind != kind) continue;
+      counted.push_back(of(answer.effort));
+      taken.push_back(prepared ? answer.asking : of(answer.seconds));
+      all_counted += counted.back();
+      all_taken += taken.back();
     }
     std::printf("| %s | %zu | %.1f, %.1f | %.1f, %.1f | %.2f |\n", part, counted.size(),
                 1e3 * At(counted, 0.5), 1e3 * At(counted, 0.99), 1e3 * At(taken, 0.5),

@@ -202,7 +202,8 @@ WalkedEpisode WalkOnly(const LiveStudy& study, std::uint64_t seed) {
   const TrueWorld truth(drawn.scene, drawn.config.experiment.goal, live);
   const Replanner replanner(study.place, drawn.config, *study.baked.cached.volumes);
   StandInSensor sensor(truth, live, static_cast<std::uint64_t>(drawn.config.experiment.seed) + 1);
-  WalkedEpisode walked{.episode = RunLockstep(replanner, &sensor, study.start, {}), .tables = {}};
+  WalkedEpisode walked;
+  walked.episode = Run(replanner, &sensor, study.start, &walked.answers);
   std::string text;
   for (const EpisodeTable& table : EpisodeTables(walked.episode, {})) {
     if (table.name != "timings") text += table.file.text;

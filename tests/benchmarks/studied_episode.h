@@ -75,6 +75,7 @@ struct StudiedEpisode {
 struct WalkedEpisode {
   Episode episode;
   std::string tables;  ///< SHA-256 of all its tables but timings.csv
+  std::vector<Answered> answers;
 };
 /// Walks the episode of a seed.
 WalkedEpisode WalkOnly(const LiveStudy& study, std::uint64_t seed);

@@ -7,19 +7,16 @@
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/narrowphase/collision.h>
 
-#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <numeric>
 #include <set>
 #include <sstream>
 #include <vector>
 
 #include "planner/collision/collision_world.h"
 #include "planner/swept/box_tree_obj.h"
-#include "planner/swept/stance_query.h"
 #include "planner/swept/swept_volume_cache.h"
 #include "tests/benchmarks/wavy_ball.h"
 #include "tests/planner/swept_volume_draws.h"
@@ -113,39 +110,6 @@ BENCHMARK(BM_SweptVolumeQuery)
     ->ArgNames({"room", "cell_mm", "few"})
     ->ArgsProduct({{kBoxes, kMixed, kMeshes}, {10}, {0}})
     ->ArgsProduct({{kBoxes, kMixed, kMeshes}, {10, 17}, {1}});
-
-// All down half-steps of a stance, or all up half-steps: one by one, or together. Items are
-// half-steps. Arguments: kind of room, whether they are asked together.
-void BM_Stance(benchmark::State& state) {
-  const SweptVolumes& volumes = Volumes(0.01, false);
-  const SweptVolumeQuery query(volumes, SweptRobot().sole_outline,
-                               Room(static_cast<Kind>(state.range(0))));
-  const bool together = state.range(1) != 0;
-  StanceQuery stance(query);
-  const auto questions = Questions(volumes.set.size(), 1 << 10);
-  std::vector<int> elements(static_cast<size_t>(volumes.set.size()));
-  std::iota(elements.begin(), elements.end(), 0);
-  size_t stances = 0, free = 0;
-  for (auto _ : state) {
-    const Asked& q = questions[stances & (questions.size() - 1)];
-    const bool down = stances++ % 2 == 0;
-    if (together) {
-      const auto& are_free = down ? stance.DownsAreFree(elements, q.support, q.X_WS)
-                                  : stance.UpsAreFree(elements, q.support, q.X_WS);
-      free += static_cast<size_t>(std::ranges::count(are_free, true));
-      continue;
-    }
-    for (const int i : elements) {
-      free += (down ? query.DownIsFree(i, q.support, q.X_WS) : query.UpIsFree(i, q.support, q.X_WS))
-                  ? 1
-                  : 0;
-    }
-  }
-  Report(state, free, stances * elements.size());
-}
-BENCHMARK(BM_Stance)
-    ->ArgNames({"room", "together"})
-    ->ArgsProduct({{kBoxes, kMixed, kMeshes}, {0, 1}});
 
 std::shared_ptr<Bvh> MakeBvh(const std::vector<Vector3d>& points,
                              const std::vector<fcl::Triangle>& triangles) {

@@ -11,7 +11,6 @@
 #include "planner/collision/collision_world.h"
 #include "planner/collision/mesh_interior.h"
 #include "planner/collision/mesh_winding.h"
-#include "planner/swept/stance_query.h"
 #include "tests/planner/swept_volume_draws.h"
 #include "wpg/files/input_error.h"
 #include "wpg/geometry/support_polygon.h"
@@ -234,45 +233,6 @@ TEST(SweptVolumeQueryTest, MirroredAndMovedScenesGiveTheSameAnswers) {
   }
   EXPECT_GT(free, 50);
   EXPECT_LT(free, 550);
-}
-
-TEST(SweptVolumeQueryTest, HalfStepsOfAStanceAreAnsweredTogetherAsAlone) {
-  SweptDraw draw(31);
-  const SweptVolumes& volumes = CoarseVolumes();
-  const std::vector<int> elements = {0, 1, 2, 2, 1, 0, 2};
-  int free = 0, taken = 0;
-  // None, one leaf of the tree of obstacles, and several.
-  for (const int count : {0, 14, 150}) {
-    Scene scene = Mixed(count, &draw);
-    for (size_t i = 0; i < scene.obstacles.size(); ++i) {
-      if (count == 150) scene.obstacles[i].X_WO.translation() *= 4.0;
-      if (i % 3 == 0) scene.obstacles[i].motion.error = draw.Uniform(0.0, 0.05);
-      if (i % 7 == 1) scene.obstacles[i].shape = FacesOf(MakeBox({0.2, 0.1, 0.3}));
-    }
-    scene.no_step.push_back(SoleCorners({0.4, 0.3, 0.5}, {0.6, 0.4}));
-    SweptVolumeQuery query(volumes, kSole, scene, 0.01);
-    StanceQuery stance(query);
-    for (int k = 0; k < 300; ++k) {
-      const auto [i, support, X_WS] = DrawQuery(count == 150 ? 5.0 : 1.5, &draw);
-      if (count > 0 && k % 50 == 49) {
-        query.SetObstaclePose(
-            k % count, Isometry3d(Eigen::Translation3d(draw.Point({-1, -1, 0}, {1, 1, 0.5}))));
-      }
-      const std::vector<bool> downs = stance.DownsAreFree(elements, support, X_WS);
-      const std::vector<bool> ups = stance.UpsAreFree(elements, support, X_WS);
-      ASSERT_EQ(downs.size(), elements.size());
-      ASSERT_EQ(ups.size(), elements.size());
-      for (size_t e = 0; e < elements.size(); ++e) {
-        EXPECT_EQ(downs[e], query.DownIsFree(elements[e], support, X_WS)) << count << ", " << k;
-        EXPECT_EQ(ups[e], query.UpIsFree(elements[e], support, X_WS)) << count << ", " << k;
-        (downs[e] ? free : taken) += 1;
-      }
-      const Foothold above({X_WS.x, X_WS.y, X_WS.yaw}, 0.01);
-      EXPECT_FALSE(stance.DownsAreFree(elements, support, above)[0]);
-    }
-  }
-  EXPECT_GT(free, 1000);
-  EXPECT_GT(taken, 1000);
 }
 
 TEST(SweptVolumeQueryTest, AMovedObstacleAnswersLikeANewScene) {
