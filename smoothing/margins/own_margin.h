@@ -21,9 +21,9 @@ class OwnStatement {
   virtual double Value(Instant* at) const = 0;
   /// How much the margin changes at most between the midpoint of an interval and any of its
   /// instants [its unit]. IntervalMotion has bounds of the walk's quantities; MarginInterval those
-  /// of bodies and of the robot's ZMP. What rounding does to the quantities that Value is of is part
-  /// of the change: IntervalMotion::off and ::rounding. Asked only where Value is finite at the
-  /// midpoint.
+  /// of bodies and of the robot's ZMP. What rounding does to the quantities that Value is of is
+  /// part of the change (IntervalMotion::off and `rounding`). Asked only where Value is finite at
+  /// the midpoint.
   virtual double Change(const MarginInterval& interval) const = 0;
   /// ∂Value/∂parameter i (n), in the order of `along`. Asked only where Value is finite.
   virtual std::vector<double> Slopes(Instant* at,

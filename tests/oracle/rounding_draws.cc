@@ -52,45 +52,7 @@ void Compare(const std::string& form, const std::array<Real, 3>& exact, const Un
              accuracy.error.ss + accuracy.most.sss * off);
 }
 
-Eigen::Isometry3d Scaled(Eigen::Isometry3d X, double scale) {
-  X.translation() *= scale;
-  return X;
-}
-
 }  // namespace
-
-RobotModel ScaledRobot(RobotModel robot, double scale) {
-  const auto scale_leg = [scale](Leg* leg) {
-    for (LegJoint& joint : leg->joints) {
-      joint.point_B *= scale;
-      joint.X_BLink = Scaled(joint.X_BLink, scale);
-    }
-    leg->hip_B *= scale;
-    leg->ankle_B *= scale;
-    leg->X_BSole = Scaled(leg->X_BSole, scale);
-  };
-  for (Leg& leg : robot.legs) {
-    scale_leg(&leg);
-    for (Leg& met : leg.met) scale_leg(&met);
-  }
-  for (RobotBody& body : robot.bodies) {
-    body.shape.center *= scale;
-    body.shape.radius *= scale;
-  }
-  const auto scale_mass = [scale](BodyMass* of) {
-    of->com *= scale;
-    of->mass *= scale * scale * scale;
-    of->inertia *= scale * scale * scale * scale * scale;
-  };
-  scale_mass(&robot.masses.waist);
-  for (auto& leg : robot.masses.links) {
-    for (BodyMass& link : leg) scale_mass(&link);
-  }
-  robot.sole_size *= scale;
-  robot.waist_height *= scale;
-  robot.com_x_B *= scale;
-  return robot;
-}
 
 WalkJet DrawPose(const RobotModel& robot, double scale, Draw* draw) {
   WalkJet jet;

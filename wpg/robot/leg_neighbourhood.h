@@ -40,8 +40,9 @@ class LegNeighbourhood {
   /// The same about any axis, by at most `turn`.
   Vector6d AskedAnyWay(double turn, double velocity) const;
   /// How far rounding may carry Y times the twist of a way of less than π from the sole's exact
-  /// pose here, and share · by_share() [rad].
+  /// pose here [rad].
   Vector6d WayRounding() const { return AskedAnyWay(6.0 * turn_off_, 10.0 * place_off_); }
+  /// The same of by_share() [rad].
   Vector6d ByShareRounding() const { return share_off_ * linear_; }
 
   /// Bounds of the joints' ways while the share grows by `share` and the sole goes along a path
