@@ -26,7 +26,7 @@ constexpr double kViaHeight = 0.25;  // of HRP-2's half-steps [m]
 constexpr double kRise = 6e-3;    // of a foot before it moves ahead: more than the floor margin [m]
 constexpr double kOfLift = 0.95;  // of the highest place of the swing foot
 constexpr double kOfStance = 0.65;   // width of a sole that is not narrow, HRP-2's and wider ones
-constexpr double kMostNarrow = 3.0;  // what is counted of it
+constexpr double kMostNarrow = 2.0;  // times as long as on these
 
 enum class Law {
   kLength,
@@ -65,7 +65,8 @@ double DelayToRise(double fraction) {
 // HRP-2's: landings tip a robot over the edges of narrow ones, and on both feet it comes to rest
 // (notebooks-data/measurements.md, "Robots from their URDF").
 double NarrowOf(const RobotMeasures& robot) {
-  return std::clamp(kOfStance * robot.standing_width / robot.sole_width, 1.0, kMostNarrow);
+  const double narrow = kOfStance * robot.standing_width / robot.sole_width;
+  return std::clamp(narrow * narrow, 1.0, kMostNarrow);
 }
 
 // The value for a robot of what is `hrp2` for HRP-2.

@@ -1,7 +1,6 @@
 #include "experiments/survey/self_gaps.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <memory>
 #include <utility>
@@ -45,54 +44,35 @@ std::vector<Posture> PlannedPostures(const RobotModel& robot, const HalfStepSequ
   return postures;
 }
 
-// How far a posture is within reach [of the leg's length] and limits [rad] of the legs, less what
-// is kept of both; −∞: a leg does not reach.
-double SlackOf(const RobotModel& robot, const Posture& posture) {
+bool IsWithinLimits(const RobotModel& robot, const Posture& posture) {
   constexpr double kWithin = 0.01;  // [rad]
-  if (!posture.reachable) return -std::numeric_limits<double>::infinity();
-  const double length = std::max(robot.waist_height, 0.5 * robot.com_height);
-  double slack = std::numeric_limits<double>::infinity();
+  if (!posture.reachable) return false;
   for (size_t leg = 0; leg < 2; ++leg) {
-    slack = std::min(slack, posture.ik[leg].reach_margin / length - 1e-3);
+    if (posture.ik[leg].reach_margin < 1e-3 * std::max(robot.waist_height, 0.5 * robot.com_height))
+      return false;
     for (size_t i = 0; i < 6; ++i) {
       const LegJoint& joint = robot.legs[leg].joints[i];
       const double q = posture.ik[leg].q[static_cast<Eigen::Index>(i)];
-      slack = std::min({slack, q - joint.lower - kWithin, joint.upper - kWithin - q});
+      if (q < joint.lower + kWithin || q > joint.upper - kWithin) return false;
     }
   }
-  return slack;
-}
-
-// The least of the planned motion, sampled.
-double SlackOf(const RobotModel& robot, const HalfStepSequence& sequence) {
-  double slack = std::numeric_limits<double>::infinity();
-  for (const Posture& posture : PlannedPostures(robot, sequence)) {
-    slack = std::min(slack, SlackOf(robot, posture));
-  }
-  return slack;
+  return true;
 }
 
 }  // namespace
 
 HalfStepSequence SixSteps(const RobotModel& robot, const HalfStep& prototype) {
-  constexpr int kMost = 12;
-  constexpr double kSame = 1e-6;
   const double leg = MeasuresOf(robot).leg_length;
-  const auto steps = [&](int parts) { return SixStepsOf(robot, prototype, 0.025 * parts * leg); };
-  const auto longest = [&](double enough) {
-    int parts = kMost;
-    while (parts > 1 && !(SlackOf(robot, steps(parts)) >= enough)) --parts;
-    return parts;
-  };
-  const int parts = longest(0.0);
-  if (parts > 1) return steps(parts);
-  const double least = SlackOf(robot, steps(1));
-  if (least >= 0.0 || std::isinf(least)) return steps(1);
-  return steps(longest(least - kSame));  // the steps' length is not to blame
+  for (int parts = 12;; --parts) {
+    HalfStepSequence sequence = SixStepsOf(robot, prototype, 0.025 * parts * leg);
+    if (parts == 1 || IsWithinReach(robot, sequence)) return sequence;
+  }
 }
 
 bool IsWithinReach(const RobotModel& robot, const HalfStepSequence& sequence) {
-  return SlackOf(robot, sequence) >= 0.0;
+  return std::ranges::all_of(PlannedPostures(robot, sequence), [&robot](const Posture& posture) {
+    return IsWithinLimits(robot, posture);
+  });
 }
 
 std::vector<Posture> SampledPostures(const RobotModel& robot, const HalfStepSequence& sequence) {

@@ -13,8 +13,7 @@ inline constexpr double kStride = 0.3;  ///< of SixSteps at most, over the leg's
 
 /// Six steps straight ahead, feet side by side in the end: of 0.3 of the leg's length ℓ, or of the
 /// largest smaller multiple of 0.025 ℓ for which the sampled planned motion is within reach and
-/// limits of the legs; where it is for none, of the largest that is as near to it as the smallest
-/// one. `prototype` gives duration, via point and shape.
+/// limits of the legs. `prototype` gives duration, via point and shape.
 HalfStepSequence SixSteps(const RobotModel& robot, const HalfStep& prototype);
 
 /// Whether the sampled planned motion of a sequence is within reach and limits of the legs.

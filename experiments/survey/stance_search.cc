@@ -24,7 +24,7 @@ namespace halfstep {
 namespace {
 
 constexpr double kFeetApart = 0.05;      // bodies of HRP-2's feet, standing [m]
-constexpr double kLeastLift = 0.12;      // of the swing foot, of the leg's length
+constexpr double kLeastLift = 0.10;      // of the swing foot, of the leg's length
 constexpr double kTorquePeriod = 0.002;  // [s]
 constexpr int kParts = 8;                // of a mesh whose hull touches what it should not
 
