@@ -25,8 +25,6 @@ constexpr double kTurn = 6.8;
 constexpr double kViaHeight = 0.25;  // of HRP-2's half-steps [m]
 constexpr double kRise = 6e-3;    // of a foot before it moves ahead: more than the floor margin [m]
 constexpr double kOfLift = 0.95;  // of the highest place of the swing foot
-constexpr double kOfStance = 0.65;   // width of a sole that is not narrow, HRP-2's and wider ones
-constexpr double kMostNarrow = 2.0;  // times as long as on these
 
 enum class Law {
   kLength,
@@ -34,7 +32,6 @@ enum class Law {
   kAcross,
   kWidth,
   kDuration,
-  kShift,
   kHeight,
   kAside,
   kDelay,
@@ -61,14 +58,6 @@ double DelayToRise(double fraction) {
   return (0.5 - 0.5 * kShift) * high;
 }
 
-// How much longer the ZMP takes from foot to foot than on soles that are as wide for the stance as
-// HRP-2's: landings tip a robot over the edges of narrow ones, and on both feet it comes to rest
-// (notebooks-data/measurements.md, "Robots from their URDF").
-double NarrowOf(const RobotMeasures& robot) {
-  const double narrow = kOfStance * robot.standing_width / robot.sole_width;
-  return std::clamp(narrow * narrow, 1.0, kMostNarrow);
-}
-
 // The value for a robot of what is `hrp2` for HRP-2.
 double Scaled(Law law, double hrp2, const RobotMeasures& robot) {
   const double length = robot.leg_length / kLegOfHrp2, width = robot.standing_width / kStance;
@@ -83,9 +72,6 @@ double Scaled(Law law, double hrp2, const RobotMeasures& robot) {
       return Rounded(hrp2 * width);
     case Law::kDuration:
       return Rounded(hrp2 * std::max(std::sqrt(length), kTurn / (kDuration * robot.slowest_joint)));
-    case Law::kShift:
-      return Rounded(hrp2 * NarrowOf(robot) *
-                     std::max(std::sqrt(length), kTurn / (kDuration * robot.slowest_joint)));
     case Law::kHeight:
       return Rounded(std::min(hrp2 * length, kOfLift * robot.lift));
     case Law::kAside:
@@ -118,8 +104,6 @@ std::string FormulaOf(Law law, const std::string& hrp2) {
       return "`" + hrp2 + "` · w/0.21 m";
     case Law::kDuration:
       return "`" + hrp2 + "` · max(√(ℓ/0.705 m), 3.4 rad/s / q̇)";
-    case Law::kShift:
-      return "`" + hrp2 + "` · narrow · max(√(ℓ/0.705 m), 3.4 rad/s / q̇)";
     case Law::kHeight:
       return "min(`" + hrp2 + "` · ℓ/0.705 m, 0.95 lift)";
     case Law::kAside:
@@ -153,7 +137,7 @@ Law LawOf(ParameterScale scale) {
 std::vector<ScaledDefault> ScaledDefaults() {
   std::vector<ScaledDefault> rows = {
       {"half_step.duration_s", Law::kDuration},
-      {"half_step.zmp_shift_s", Law::kShift},
+      {"half_step.zmp_shift_s", Law::kDuration},
       {"half_step.via_height_m", Law::kHeight},
       {"half_step.foot_delay", Law::kDelay},
       {"half_step.via_lateral_m", Law::kAside},

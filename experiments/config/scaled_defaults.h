@@ -12,7 +12,6 @@ struct ExperimentConfig;
 /// Defaults of a config that go by the robot's size: HRP-2's number, times a factor of the robot's
 /// measures that is 1 for HRP-2. Lengths go by the leg's length ℓ, so that the legs' angles stay
 /// about what they are; times by √ℓ, as a pendulum's do, but are long enough for the slowest joint;
-/// the ZMP goes from foot to foot more slowly on soles that are narrow for the width of stance;
 /// the via point's distance from the support sole goes by the width of stance. Results are rounded
 /// to three digits. README of experiments, "Defaults that go by the robot".
 void ScaleDefaults(const RobotMeasures& robot, ExperimentConfig* config);

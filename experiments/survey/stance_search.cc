@@ -23,8 +23,11 @@
 namespace halfstep {
 namespace {
 
-constexpr double kFeetApart = 0.05;      // bodies of HRP-2's feet, standing [m]
-constexpr double kLeastLift = 0.10;      // of the swing foot, of the leg's length
+constexpr double kFeetApart = 0.05;  // bodies of HRP-2's feet, standing [m]
+// Of the swing foot, of the leg's length. For more, knees would have to be straighter: legs get
+// stiffer then, and a foot that lands early tips the robot (notebooks-data/measurements.md, "Robots
+// from their URDF").
+constexpr double kLeastLift = 0.07;
 constexpr double kTorquePeriod = 0.002;  // [s]
 constexpr int kParts = 8;                // of a mesh whose hull touches what it should not
 

@@ -313,15 +313,6 @@ TEST(ScaledDefaults, GoByTheLegUnlessAKeySaysOtherwise) {
   EXPECT_EQ(config.half_step.foot_delay, 0.115);  // 0.0625 m · S(0.115/0.475) = 6 mm
   EXPECT_DOUBLE_EQ(config.step_set.x_max, 7 * config.step_set.spacing);
   EXPECT_EQ(config.half_step.support_point, 0.0);
-  // On soles that are narrow for the stance the ZMP takes longer from foot to foot.
-  RobotMeasures narrow = half;
-  narrow.sole_width = 0.65 / 1.2 * narrow.standing_width;
-  ScaleDefaults(narrow, &(config = {}));
-  EXPECT_EQ(config.half_step.duration, 1.0);
-  EXPECT_EQ(config.half_step.zmp_shift, 0.072);
-  narrow.sole_width *= 0.1;
-  ScaleDefaults(narrow, &(config = {}));
-  EXPECT_EQ(config.half_step.zmp_shift, 0.1);  // and no more than twice
   half.support_point = -0.011;
   half.slowest_joint = 1.7;  // [rad/s]
   ScaleDefaults(half, &(config = {}));
