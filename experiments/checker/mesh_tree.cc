@@ -10,6 +10,9 @@ namespace halfstep::checker {
 namespace {
 
 constexpr Eigen::Index kMostInHull = 20'000;  // triangles of a mesh that has a hull
+// A point in an interval of this width is less than kNoTouch from its middle, so that both are on
+// the same side of a surface that is so far [m].
+constexpr double kNarrow = 0.5 * kNoTouch;
 
 Eigen::AlignedBox3d BoxOf(const Vector& v) {
   return {Eigen::Vector3d(v[0].lo, v[1].lo, v[2].lo), Eigen::Vector3d(v[0].hi, v[1].hi, v[2].hi)};
@@ -86,7 +89,11 @@ std::vector<ConvexBody> MeshTree::Near(const Vector& point, double reach) const 
 bool MeshTree::IsOutside(const Vector& point) const {
   if (mesh_.hollow) return true;
   const Eigen::Vector3d about(point[0].Middle(), point[1].Middle(), point[2].Middle());
-  if (mesh_.cubes) return !mesh_.cubes->Contains(about);
+  if (mesh_.cubes) {
+    double wide = 0.0;
+    for (const Interval& x : point) wide = std::max(wide, Above(x.hi - x.lo));
+    return wide < kNarrow && !mesh_.cubes->Contains(about);
+  }
   constexpr double kEverywhere = std::numeric_limits<double>::infinity();
   for (size_t axis = 0; axis < 3; ++axis) {
     for (const double sign : {1.0, -1.0}) {

@@ -8,6 +8,9 @@
 
 namespace halfstep::checker {
 
+/// Bodies that are free of a mesh keep as far off its triangles at least [m].
+inline constexpr double kNoTouch = 1e-9;
+
 /// The triangles of a mesh in its own frame, for bodies that are within its hull.
 class MeshTree {
  public:
@@ -19,9 +22,9 @@ class MeshTree {
   ConvexBody Around() const;
   /// Its triangles but those that are farther than `reach` [m] from all of a point's places.
   std::vector<ConvexBody> Near(const Vector& point, double reach) const;
-  /// Whether a point that is on no triangle is surely not inside: in none of the cubes where it is
-  /// the surface of some, and else where a ray along an axis meets no triangle, so that nothing
-  /// that is closed winds around it. All that a hollow mesh surrounds is outside.
+  /// Whether a point that is kNoTouch off all triangles is surely not inside: in none of the cubes
+  /// where the mesh is the surface of some, and else where a ray along an axis meets no triangle,
+  /// so that nothing that is closed winds around it. All that a hollow mesh surrounds is outside.
   bool IsOutside(const Vector& point) const;
 
  private:

@@ -8,7 +8,6 @@
 namespace halfstep::checker {
 namespace {
 
-constexpr double kNoTouch = 1e-9;  // bodies keep as far off the triangles of a mesh at least [m]
 constexpr double kFarther = 0.01;  // by which a hull is farther than demanded [m]
 
 // The frame of an obstacle on an interval that holds no time of a waypoint: it goes straight from

@@ -107,6 +107,21 @@ TEST(MeshObstacle, OfCubesNoneMayHoldABody) {
   EXPECT_FALSE(CheckRun(Among(cubes(0))).proved());
 }
 
+TEST(MeshObstacle, NoPlaceOfAPointThatMayBeInACubeIsOutside) {
+  VoxelSet set(0.05);
+  set.Add({0, 0, 0});
+  set.Finish();
+  TriangleMesh mesh = set.Surface();
+  mesh.cubes = std::make_shared<const VoxelSet>(std::move(set));
+  const MeshTree tree(mesh);
+  // The middle is outside.
+  const auto outside = [&](double wide) {
+    return tree.IsOutside({Interval(-0.01 - wide, -0.01 + wide), Interval(0.02), Interval(0.02)});
+  };
+  EXPECT_TRUE(outside(1e-12));
+  EXPECT_FALSE(outside(0.02));
+}
+
 TEST(MeshObstacle, IsOutsideWhereARayLeadsAway) {
   const TriangleMesh gate = Gate(1.0);
   const MeshTree tree(gate);
