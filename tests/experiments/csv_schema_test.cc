@@ -15,7 +15,6 @@
 #include "tests/experiments/child_process.h"
 #include "tests/experiments/made_once.h"
 #include "tests/experiments/parsed_csv.h"
-#include "tests/live/small_files.h"
 #include "tests/places.h"
 #include "tests/temporary_folder.h"
 
@@ -50,16 +49,10 @@ bool Parses(const std::string& cell, const std::string& type) {
          cell.find_first_of(".e") != std::string::npos;
 }
 
-// Beside a table or, of one of many, in the folder above.
-fs::path SchemaOf(const fs::path& csv) {
-  const fs::path beside = fs::path(csv).replace_extension("schema.json");
-  return fs::exists(beside) ? beside : beside.parent_path().parent_path() / beside.filename();
-}
-
 void CheckSchema(const fs::path& path) {
   SCOPED_TRACE(path.string());
   const ParsedCsv table(ReadText(path));
-  const json schema = json::parse(ReadText(SchemaOf(path)));
+  const json schema = json::parse(ReadText(fs::path(path).replace_extension("schema.json")));
   EXPECT_EQ(schema["missingValues"], json::array({""}));
   std::vector<std::string> names;
   for (const json& field : schema["fields"]) {
@@ -116,23 +109,6 @@ TEST(CsvSchema, CertifyWritesItAnew) {
   fs::remove(place / "raw/raw/certificate.schema.json");
   ASSERT_EQ(Halfstep(place.path(), {"certify", "raw", "--quiet"}).status, kSuccess);
   CheckSchema(place / "raw/raw/certificate.csv");
-}
-
-TEST(CsvSchema, StandsOnceAboveTheWalksOfAnEpisode) {
-  const TemporaryFolder place;
-  WriteSmallWorld(place.path(), "");
-  const Outcome made =
-      Halfstep(place.path(), {"live", "small.yaml", "--quiet", "--out", "episode"});
-  ASSERT_EQ(made.status, kSuccess) << made.err;
-  int tables = 0;
-  for (const std::string& file : FilesBelow(place / "episode")) {
-    const fs::path path = place / "episode" / file;
-    if (file.ends_with(".csv")) CheckSchema(path);
-    if (!file.starts_with("walks/") || !file.ends_with(".csv")) continue;
-    EXPECT_FALSE(fs::exists(fs::path(path).replace_extension("schema.json"))) << file;
-    ++tables;
-  }
-  EXPECT_GE(tables, 2 * 3);
 }
 
 TEST(CsvSchema, OfOneThatHasOtherColumnsStandsBesideIt) {

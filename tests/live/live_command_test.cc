@@ -78,6 +78,13 @@ TEST(LiveCommand, AnInterruptedEpisodeIsWritten) {
   const Outcome verified = Halfstep(place.path(), {"verify", "one", "--verbose"});
   EXPECT_EQ(verified.status, kSuccess) << verified.out << verified.err;
   EXPECT_THAT(verified.out, HasSubstr("interrupted"));
+  // What the columns of walks mean is said once, above them.
+  for (const std::string& file : FilesBelow(place / "one")) {
+    if (!file.starts_with("walks/") || !file.ends_with(".csv")) continue;
+    const std::string schema = fs::path(file).stem().string() + ".schema.json";
+    EXPECT_TRUE(fs::exists(place / "one/walks" / schema)) << file;
+    EXPECT_FALSE(fs::exists((place / "one" / file).parent_path() / schema)) << file;
+  }
   std::ifstream events(place / "one/events.csv");
   EXPECT_THAT(std::string(std::istreambuf_iterator<char>(events), {}), HasSubstr("stopped"));
   EXPECT_FALSE(fs::exists(EpisodeJournal::FolderOf(place / "one")));
