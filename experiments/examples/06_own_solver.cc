@@ -31,7 +31,8 @@ int main(int argc, char** argv) {
   const WalkProblem problem = ProblemOf(Prepare(config));
   for (const char* method : {"dichotomy", "mine/descent"}) {
     SmoothingMonitor monitor;
-    const SmoothingResult result = methods.Find(method).Smooth(problem, config.smoothing.options, monitor);
+    const SmoothingResult result =
+        methods.Find(method).Smooth(problem, config.smoothing.options, monitor);
     std::printf("%-13s %.3f s\n", method, result.cost);
   }
 }

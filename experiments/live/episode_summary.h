@@ -25,7 +25,7 @@ struct EpisodeSummary {
   /// From when the world that asked for it was measured to the hand-over, of each walk with other
   /// footsteps [s]; half-steps that began meanwhile, before the first changed one.
   std::vector<double> latencies;
-  std::vector<int> begun_meanwhile;  ///< the same walks in the same order
+  std::vector<int> begun_meanwhile;     ///< the same walks in the same order
   std::vector<NotCovered> not_covered;  ///< what the episode's proofs do not speak of
   /// Sampled every 5 ms; none when it is not known where obstacles truly were.
   std::optional<Approach> nearest;

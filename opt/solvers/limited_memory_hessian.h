@@ -18,7 +18,7 @@ class LimitedMemoryHessian {
   void Clear();                                           ///< forgets all pairs
   Eigen::VectorXd Times(const Eigen::VectorXd& v) const;  ///< B v (n)
 
-  bool remembers() const { return memory_ > 0; }  ///< whether B learns from steps
+  bool remembers() const { return memory_ > 0; }   ///< whether B learns from steps
   double sigma() const { return sigma_; }          ///< σ of B, above; 0 before the first step
   bool empty() const { return s_.empty(); }        ///< whether no pair is known
   const Eigen::MatrixXd& U() const { return U_; }  ///< (n × 2·pairs)

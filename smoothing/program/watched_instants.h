@@ -60,7 +60,7 @@ class WatchedInstants {
   size_t num_nonzeros() const;
 
   const WatchOptions& options() const { return options_; }  ///< with the present sharpness
-  double sharpness() const { return options_.sharpness; }  ///< ρ [1 / scale of a slack]
+  double sharpness() const { return options_.sharpness; }   ///< ρ [1 / scale of a slack]
   /// Larger: nearer to the least slack, and less smooth. Every reserve is 3/ρ from now on.
   void SetSharpness(double sharpness);
   bool row_per_instant() const { return options_.row_per_instant; }  ///< as in WatchOptions

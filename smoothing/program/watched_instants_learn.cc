@@ -40,7 +40,8 @@ bool WatchedInstants::Look(const SuperposedWalk& walk, const LocalTime& at, bool
   return true;
 }
 
-std::vector<double> WatchedInstants::Focus(const SuperposedWalk& walk, double period, double level) {
+std::vector<double> WatchedInstants::Focus(const SuperposedWalk& walk, double period,
+                                           double level) {
   // Rows by half-step cost no more for looking at more instants; long rounds need them.
   if (options_.row_per_instant) {
     NoteRows(walk, level);

@@ -320,7 +320,8 @@ constexpr std::array<Row, kNumParameterFamilies> kRows = {{
 
 static_assert(AreInOrder(kRows),
               "a family has no row, or the row is not in the order of ParameterFamily");
-#ifndef __SANITIZE_ADDRESS__  // with which gcc takes no function's address for a constant (PR 71962)
+#ifndef __SANITIZE_ADDRESS__  // with which gcc takes no function's address for a constant (PR
+                              // 71962)
 static_assert(AreComplete(kRows), "a row leaves out what it has to say");
 #endif
 static_assert(AllDiffer(kRows), "two rows say the same");

@@ -4,72 +4,22 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstdlib>
-#include <nlohmann/json.hpp>
 
 #include "experiments/commands/commands.h"
 #include "experiments/tables/csv_columns.h"
 #include "experiments/tables/csv_writer.h"
 #include "experiments/tables/run_folder.h"
 #include "tests/experiments/child_process.h"
+#include "tests/experiments/csv_schema_check.h"
 #include "tests/experiments/made_once.h"
-#include "tests/experiments/parsed_csv.h"
 #include "tests/places.h"
 #include "tests/temporary_folder.h"
 
 namespace halfstep {
 namespace {
 
-using nlohmann::json;
 namespace fs = std::filesystem;
-
-// Unit that a column's name ends in.
-std::string UnitInName(const std::string& name) {
-  for (const auto& [ending, unit] :
-       std::vector<std::pair<std::string, std::string>>{{"_n_m", "N m"},
-                                                        {"_m_s2", "m/s2"},
-                                                        {"_rad_s", "rad/s"},
-                                                        {"_m_s", "m/s"},
-                                                        {"_rad", "rad"},
-                                                        {"_m", "m"},
-                                                        {"_s", "s"}}) {
-    if (name.ends_with(ending)) return unit;
-  }
-  return "";
-}
-
-bool Parses(const std::string& cell, const std::string& type) {
-  if (type == "string") return !cell.empty();
-  if (type == "boolean") return cell == "true" || cell == "false";
-  if (type == "integer") return cell.find_first_not_of("-0123456789") == std::string::npos;
-  if (cell.empty() || cell == "nan" || cell == "inf" || cell == "-inf") return type == "number";
-  char* end = nullptr;
-  return std::isfinite(std::strtod(cell.c_str(), &end)) && *end == '\0' &&
-         cell.find_first_of(".e") != std::string::npos;
-}
-
-void CheckSchema(const fs::path& path) {
-  SCOPED_TRACE(path.string());
-  const ParsedCsv table(ReadText(path));
-  const json schema = json::parse(ReadText(fs::path(path).replace_extension("schema.json")));
-  EXPECT_EQ(schema["missingValues"], json::array({""}));
-  std::vector<std::string> names;
-  for (const json& field : schema["fields"]) {
-    const std::string name = field["name"], type = field["type"];
-    names.push_back(name);
-    EXPECT_NE(field["description"], "") << name;
-    EXPECT_THAT(field["interpolation"], testing::AnyOf("none", "linear", "piecewise constant"));
-    if (const std::string unit = UnitInName(name); !unit.empty()) {
-      EXPECT_EQ(field["unit"], unit) << name;
-    }
-    for (size_t row = 0; row < table.size(); ++row) {
-      ASSERT_TRUE(Parses(table.Text(row, name), type))
-          << name << ": '" << table.Text(row, name) << "' is no " << type;
-    }
-  }
-  EXPECT_EQ(names, table.header());
-}
 
 void MakeRaw(const TemporaryFolder& place) {
   CopyMadeOnce(place.path(), {"run", ShippedConfig("fig3_two_half_steps"), "--out", "raw",
@@ -97,7 +47,8 @@ TEST(CsvSchema, StandsBesideEveryCsvAndFitsIt) {
   int files = 0;
   for (const std::string& file : FilesBelow(place.path())) {
     if (!file.ends_with(".csv")) continue;
-    CheckSchema(place / file);
+    ExpectTheSchemaFits(place / file);
+    EXPECT_EQ(SchemaOf(place / file).parent_path(), (place / file).parent_path());
     ++files;
   }
   EXPECT_EQ(files, (2 + 3 + 5 + 6) + (2 + 3) + 2 * 4);  // run, raw, comparisons
@@ -108,7 +59,7 @@ TEST(CsvSchema, CertifyWritesItAnew) {
   MakeRaw(place);
   fs::remove(place / "raw/raw/certificate.schema.json");
   ASSERT_EQ(Halfstep(place.path(), {"certify", "raw", "--quiet"}).status, kSuccess);
-  CheckSchema(place / "raw/raw/certificate.csv");
+  ExpectTheSchemaFits(place / "raw/raw/certificate.csv");
 }
 
 TEST(CsvSchema, OfOneThatHasOtherColumnsStandsBesideIt) {

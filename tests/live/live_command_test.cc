@@ -11,6 +11,7 @@
 #include "experiments/live/episode_journal.h"
 #include "experiments/run/exit_status.h"
 #include "tests/experiments/child_process.h"
+#include "tests/experiments/csv_schema_check.h"
 #include "tests/live/small_files.h"
 #include "tests/temporary_folder.h"
 
@@ -78,9 +79,11 @@ TEST(LiveCommand, AnInterruptedEpisodeIsWritten) {
   const Outcome verified = Halfstep(place.path(), {"verify", "one", "--verbose"});
   EXPECT_EQ(verified.status, kSuccess) << verified.out << verified.err;
   EXPECT_THAT(verified.out, HasSubstr("interrupted"));
-  // What the columns of walks mean is said once, above them.
+  // What the columns mean is said of each table; of those of walks once, above them.
   for (const std::string& file : FilesBelow(place / "one")) {
-    if (!file.starts_with("walks/") || !file.ends_with(".csv")) continue;
+    if (!file.ends_with(".csv")) continue;
+    ExpectTheSchemaFits(place / "one" / file);
+    if (!file.starts_with("walks/")) continue;
     const std::string schema = fs::path(file).stem().string() + ".schema.json";
     EXPECT_TRUE(fs::exists(place / "one/walks" / schema)) << file;
     EXPECT_FALSE(fs::exists((place / "one" / file).parent_path() / schema)) << file;

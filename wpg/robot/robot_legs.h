@@ -53,9 +53,9 @@ std::optional<Leg> BuildLeg(const UrdfTree& urdf, const LegRequest& request,
                             const std::array<int, 6>& joints, Complaints* complaints);
 
 /// In what the right leg is not the left one's mirror image in the xz plane of the waist, each with
-/// its size, such as "the axis of R by 0.5 deg"; empty when it is. Compared are hip and ankle, joint
-/// axes, and the limits of angles, speeds, torques and accelerations, each to `tolerance` [m, rad,
-/// rad/s, N m, rad/s²].
+/// its size, such as "the axis of R by 0.5 deg"; empty when it is. Compared are hip and ankle,
+/// joint axes, and the limits of angles, speeds, torques and accelerations, each to `tolerance` [m,
+/// rad, rad/s, N m, rad/s²].
 std::vector<std::string> MirrorDifferences(const Leg& left, const Leg& right, double tolerance);
 
 }  // namespace halfstep

@@ -98,8 +98,8 @@ struct AssumedAcceleration {
 
 /// A robot as walking needs it; immutable after loading. Waist frame B: z up when standing.
 struct RobotModel {
-  std::string name;               ///< in messages and manifests
-  std::array<Leg, 2> legs;        ///< indexed by Index(Side).
+  std::string name;         ///< in messages and manifests
+  std::array<Leg, 2> legs;  ///< indexed by Index(Side).
   /// Whether they are mirror images in the xz plane of B but for rounding (MirrorDifferences).
   bool legs_are_mirrored = true;
   Eigen::Vector2d sole_size;      ///< full length (x) and width (y) of the sole rectangle [m].
