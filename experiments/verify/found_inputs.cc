@@ -32,7 +32,12 @@ Found<Input> Find(const InputSearch& search, const std::function<Input(const std
   std::vector<fs::path> seen;
   std::string passed;
   for (const fs::path& place : search.places) {
-    if (!IsThere(place) || std::ranges::find(seen, Real(place)) != seen.end()) continue;
+    // The folder has what its own config names there.
+    const bool missing = !IsThere(place);
+    if (missing && &place == &search.places.front() && LiesIn(place, search.run)) {
+      passed = place.lexically_normal().string();
+    }
+    if (missing || std::ranges::find(seen, Real(place)) != seen.end()) continue;
     seen.push_back(Real(place));
     const bool of_run = LiesIn(place, search.run);
     try {

@@ -91,10 +91,11 @@ Scene DrawMoving(double size, SweptDraw* draw) {
   return scene;
 }
 
-// The scene as it is from a time on.
+// The scene as it is from a time on; before 0 everything rests.
 Scene From(double t, Scene scene) {
   for (Obstacle& obstacle : scene.obstacles) {
     std::vector<ObstacleMotion::Waypoint>& waypoints = obstacle.motion.waypoints;
+    if (t < 0.0) waypoints.insert(waypoints.begin(), {0.0, obstacle.X_WO.translation(), 0.0});
     double yaw = 0.0, since = 0.0;
     for (const ObstacleMotion::Waypoint& waypoint : waypoints) {
       const double share = std::clamp((t - since) / (waypoint.t - since), 0.0, 1.0);
@@ -138,8 +139,10 @@ int StudyMoving(long wanted, const RobotModel& robot, const ExperimentConfig& co
       if (always_free || IntervalAt(starts, t) == nullptr) continue;
       ++free;
       const HalfStep half_step = down ? volumes.set.Down(i, side) : volumes.set.Up(i, side);
+      // The certifier's down half-step begins when the one up to it has ended.
+      const double before = down ? half_step.duration : 0.0;
       const auto certified = [&](double at) {
-        return HalfStepCertifier(robot, From(at, scene), config)
+        return HalfStepCertifier(robot, From(at - before, scene), config)
             .Certifies(half_step, down ? X_WS : X_WF);
       };
       if (!certified(t)) {

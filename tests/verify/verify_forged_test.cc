@@ -72,6 +72,12 @@ std::vector<Forgery> OfTheManifest() {
        },
        {},
        "scene: not the one that the certificate is about"},
+      {"NoSuchRobotInTheConfig",
+       [](TamperedRun& run) {
+         TamperedRun::Replace(run.run() / "config.yaml", "robot/hrp2.yaml", "robot/hrp.yaml");
+       },
+       {},
+       "config.yaml names the robot 'inputs/robot/hrp.yaml', which is not the one"},
       {"NoSceneInTheCertificate",
        InCertificate([](Json& j) { j["scene"] = "none"; }),
        {},
