@@ -151,7 +151,7 @@ Kind KindOf(verify::Family family) {
 TrajectoryCheck CheckWalk(const WalkMotion& motion, const RobotModel& robot, const Scene& scene,
                           const verify::CertificateText& certificate, double crouch,
                           const std::function<bool(double done)>& progress, ProofHints* hints,
-                          double from) {
+                          double from, double to) {
   std::optional<TubeLoss> tube;
   if (certificate.tube) tube.emplace(*certificate.tube, robot);
   if (tube && !scene.ground->Solids().empty()) {
@@ -174,12 +174,13 @@ TrajectoryCheck CheckWalk(const WalkMotion& motion, const RobotModel& robot, con
   WalkProof proof(robot, motion, crouch, &statements, hints, &check);
   std::vector<double> knots = motion.knots(), waypoints = statements.WaypointTimes();
   waypoints.push_back(from);
+  waypoints.push_back(to);
   for (const double t : waypoints) {
     if (t > 0.0 && t < motion.end()) knots.push_back(t);
   }
   std::ranges::sort(knots);
   proof.Follow(knots);
-  std::erase_if(knots, [&](double t) { return t < from; });
+  std::erase_if(knots, [&](double t) { return t < from || t > to; });
   if (!hints->told && !knots.empty()) hints->times.push_back(knots.front());
   for (size_t i = 0; i + 1 < knots.size() && !check.stopped; ++i) {
     proof.Prove(knots[i], knots[i + 1]);

@@ -71,6 +71,8 @@ int Run(long forgeries, unsigned seed, const std::string& only, bool levels) {
   }
   std::printf("%ld walks, %ld proved as they are, %ld times refused in words\n", all.walks,
               all.proved, all.refused);
+  std::printf("control: of %ld claims that are true by 1e-6, %ld are proved\n", all.controls,
+              all.proved_controls);
   Print("raised", all.raised);
   Print("nudged", all.nudged);
   return falsehoods.empty() ? 0 : 1;
