@@ -21,7 +21,7 @@ constexpr int kSidesOfDisc = 16;  // corners that are taken of a round sole
 
 // The soles of links that stand, as one outline.
 struct Soles {
-  Eigen::Vector3d reference{0, 0, 0};        // in the plane of the lowest one [m]
+  Eigen::Vector3d reference{0, 0, 0};        // in the plane of the lowest one, rounded down [m]
   std::vector<std::array<Interval, 2>> way;  // around them, seen from there
 };
 
@@ -95,10 +95,13 @@ std::string Missing(const Trajectory& trajectory, const TrajectoryDemands& deman
 void AddFloor(const Trajectory& trajectory, const TrajectoryDemands& demands,
               const std::vector<Standing>& standing, RobotMotion* motion,
               std::vector<Statement>* statements, TrajectoryCheck* check) {
-  if (!demands.zmp && !demands.friction) {
-    check->not_covered.emplace_back("ZMP and friction of contacts (--zmp, --friction)");
-    return;
+  const bool claims = !demands.contacts.empty();
+  if (claims && !demands.zmp)
+    check->not_covered.emplace_back("ZMP: no margin is asked for (--zmp)");
+  if (claims && !demands.friction) {
+    check->not_covered.emplace_back("friction: no coefficient is asked for (--friction)");
   }
+  if (!demands.zmp && !demands.friction) return;
   const std::string option = demands.zmp ? "--zmp: " : "--friction: ";
   const std::string missing = Missing(trajectory, demands, *motion);
   if (!missing.empty()) throw InputError({option + missing});
@@ -146,8 +149,8 @@ void AddFloor(const Trajectory& trajectory, const TrajectoryDemands& demands,
   }
   if (!known) {
     throw InputError({option +
-                      "no contact is a sole: at its FROM three points of its link are within 1 mm "
-                      "of the lowest one (valid: flat links, level at FROM)"});
+                      "contacts are at no time level soles (valid: links of which three points or "
+                      "more are within 1 mm of the lowest one at FROM, at heights within 1 mm)"});
   }
   const auto tell = [check](double time, const char* why) {
     if (time == 0.0) return;

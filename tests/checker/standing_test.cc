@@ -11,6 +11,7 @@
 #include "tests/checker/found_in_check.h"
 #include "tests/checker/made_run.h"
 #include "tests/refusal_of.h"
+#include "wpg/nth.h"
 #include "wpg/robot/gravity.h"
 #include "wpg/robot/robot_tree.h"
 
@@ -116,13 +117,13 @@ TEST(Standing, SolesAreWhatIsLowest) {
   EXPECT_NEAR(disc, 0.1 * std::cos(M_PI / 16) - 0.1 / 6 * std::cos(M_PI / 16), 2e-5);
   EXPECT_LT(disc, 0.1 - 0.1 / 6);
   EXPECT_THAT(RefusalOf([&] { least(Cart("<sphere radius='0.02'/>"), Ahead(0.0)); }),
-              HasSubstr("--zmp: no contact is a sole"));
+              HasSubstr("--zmp: contacts are at no time level soles"));
   Trajectory tilted = Ahead(0.0);
   Eigen::MatrixXd poses = tilted.base;
   poses.row(3).setConstant(std::cos(0.01));
   poses.row(5).setConstant(std::sin(0.01));
   SetBase(poses, &tilted);
-  EXPECT_THAT(RefusalOf([&] { least(Cart(), tilted); }), HasSubstr("no contact is a sole"));
+  EXPECT_THAT(RefusalOf([&] { least(Cart(), tilted); }), HasSubstr("no time level soles"));
 }
 
 TEST(Standing, NothingPushesInAFreeFall) {
