@@ -129,15 +129,14 @@ class Collected {
         tells("vx") || tells("vy") || tells("vz") || tells("wx") || tells("wy") || tells("wz");
     for (Eigen::Index k = 0; k < count; ++k) {
       const auto at = [&](const char* number) { return Pose(number)[static_cast<size_t>(k)]; };
-      Eigen::Quaterniond turn;
-      if (angles) {
-        turn = RollPitchYaw(at("roll"), at("pitch"), at("yaw"));
-      } else {
-        turn = {at("qw"), at("qx"), at("qy"), at("qz")};
-      }
-      poses.col(k) << at("x"), at("y"), at("z"), turn.w(), turn.x(), turn.y(), turn.z();
+      const Eigen::Vector3d place{at("x"), at("y"), at("z")};  // braces: in that order
+      const Eigen::Quaterniond turn =
+          angles ? Eigen::Quaterniond(RollPitchYaw(at("roll"), at("pitch"), at("yaw")))
+                 : Eigen::Quaterniond{at("qw"), at("qx"), at("qy"), at("qz")};
+      poses.col(k) << place, turn.w(), turn.vec();
       if (!moves) continue;
-      velocities.col(k) << at("vx"), at("vy"), at("vz"), at("wx"), at("wy"), at("wz");
+      const Eigen::Vector3d v{at("vx"), at("vy"), at("vz")}, w{at("wx"), at("wy"), at("wz")};
+      velocities.col(k) << v, w;
     }
     SetBase(std::move(poses), &trajectory_);
     if (moves) SetBaseVelocities(std::move(velocities), &trajectory_);
