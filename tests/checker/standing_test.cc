@@ -105,7 +105,8 @@ TEST(Standing, ZmpAndFrictionAreThoseOfACart) {
   EXPECT_FALSE(FoundIn(fast, Kind::kFriction, subject).proved);
 }
 
-// Of a round sole a polygon of 16 corners is taken, and of a plate that is tilted its lower edge.
+// Of a round sole a polygon of 16 corners is taken, of balls where they touch, and of a plate that
+// is tilted its lower edge.
 TEST(Standing, SolesAreWhatIsLowest) {
   const auto least = [](const JointedRobot& robot, const Trajectory& moves) {
     const TrajectoryCheck check = CheckTrajectory(moves, robot, {}, Claims(0.0, {}));
@@ -113,6 +114,12 @@ TEST(Standing, SolesAreWhatIsLowest) {
   };
   const double plate = least(Cart(), Ahead(0.0));
   EXPECT_NEAR(plate, 0.05, 1e-6);
+  std::string balls = "<sphere radius='0.02'/>";
+  for (const std::string at : {"0.1 0.05", "-0.1 0.05", "-0.1 -0.05", "0.1 -0.05"}) {
+    balls += "</geometry></collision><collision><origin xyz='" + at +
+             " -0.79'/><geometry><sphere radius='0.01'/>";
+  }
+  EXPECT_NEAR(least(Cart(balls), Ahead(0.0)), 0.05, 1e-6);
   const double disc = least(Cart("<cylinder radius='0.1' length='0.04'/>"), Ahead(0.0));
   EXPECT_NEAR(disc, 0.1 * std::cos(M_PI / 16) - 0.1 / 6 * std::cos(M_PI / 16), 2e-5);
   EXPECT_LT(disc, 0.1 - 0.1 / 6);
