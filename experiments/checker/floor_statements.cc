@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <set>
 
 #include "experiments/checker/separation.h"
 #include "experiments/checker/standing.h"
@@ -151,6 +152,14 @@ void AddFloor(const Trajectory& trajectory, const TrajectoryDemands& demands,
     throw InputError({option +
                       "contacts are at no time level soles (valid: links of which three points or "
                       "more are within 1 mm of the lowest one at FROM, at heights within 1 mm)"});
+  }
+  std::set<int> without;  // links with bodies, but no mass
+  for (const JointedRobot::Body& body : motion->robot().bodies()) {
+    if (!(Nth(motion->robot().urdf().links, body.link).mass > 0.0)) without.insert(body.link);
+  }
+  if (!without.empty()) {
+    check->not_covered.push_back(Formatted(
+        "masses of %zu links with bodies, which the URDF does not state", without.size()));
   }
   const auto tell = [check](double time, const char* why) {
     if (time == 0.0) return;
