@@ -29,8 +29,8 @@ struct TrajectoryDemands {
   double contact_distance = 1e-3;
   double contact_angle = 0.01;  ///< by how much it is turned at most from there [rad]
   /// The ZMP is inside of the soles that are claimed to stand by at least that [m] ≥ 0; none: not
-  /// asked. A sole is the hull of those points of a link's bodies that are within 1 mm of its
-  /// lowest one when its claim begins, where they are then; all in the plane of the lowest one.
+  /// asked. A sole is the hull of those points of a link's bodies that are within contact_distance
+  /// of its lowest one when its claim begins, where they are then; all in the plane of the lowest.
   std::optional<double> zmp = {};
   /// This coefficient of friction suffices there, with ‖f_t‖ and the twist about the vertical;
   /// none: not asked.

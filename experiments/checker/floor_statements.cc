@@ -17,7 +17,6 @@ namespace halfstep::checker {
 namespace {
 
 using Kind = TrajectoryFinding::Kind;
-constexpr double kLevel = 1e-3;   // a sole's points, and soles, are higher than others by less [m]
 constexpr int kSidesOfDisc = 16;  // corners that are taken of a round sole
 
 // The soles of links that stand, as one outline.
@@ -43,8 +42,9 @@ void AddPoints(const ConvexBody& body, const Frame& X, std::vector<Vector>* poin
   }
 }
 
-// None where soles are at different heights, or have no area together.
-std::optional<Soles> SolesOf(const Standing& standing, RobotMotion* motion) {
+// Of points within some distance [m] of the lowest one. None where soles are not level to that, or
+// have less than three points together.
+std::optional<Soles> SolesOf(const Standing& standing, double within, RobotMotion* motion) {
   std::vector<Vector> all;
   double low = kInfinity, high = -kInfinity;
   for (size_t i = 0; i < standing.links.size(); ++i) {
@@ -58,11 +58,11 @@ std::optional<Soles> SolesOf(const Standing& standing, RobotMotion* motion) {
       AddPoints(body.shape, X, &points);
     }
     for (const Vector& point : points) {
-      if (Above(point[2].hi - lowest) < kLevel) all.push_back(point);
+      if (Above(point[2].hi - lowest) <= within) all.push_back(point);
     }
     low = std::min(low, lowest), high = std::max(high, lowest);
   }
-  if (!(Above(high - low) < kLevel)) return std::nullopt;
+  if (!(Above(high - low) <= within)) return std::nullopt;
   std::vector<Eigen::Vector2d> middles;
   Soles soles;
   soles.reference.z() = low;
@@ -109,7 +109,7 @@ void AddFloor(const Trajectory& trajectory, const TrajectoryDemands& demands,
   double in_air = 0.0, uneven = 0.0;
   bool known = false;
   for (const Standing& one : standing) {
-    const std::optional<Soles> soles = SolesOf(one, motion);
+    const std::optional<Soles> soles = SolesOf(one, demands.contact_distance, motion);
     if (!soles) {
       (one.links.empty() ? in_air : uneven) += one.to - one.from;
       continue;
@@ -151,7 +151,7 @@ void AddFloor(const Trajectory& trajectory, const TrajectoryDemands& demands,
   if (!known) {
     throw InputError({option +
                       "contacts are at no time level soles (valid: links of which three points or "
-                      "more are within 1 mm of the lowest one at FROM, at heights within 1 mm)"});
+                      "more are within --contact-distance of the lowest one at FROM)"});
   }
   std::set<int> without;  // links with bodies, but no mass
   for (const JointedRobot::Body& body : motion->robot().bodies()) {
@@ -166,7 +166,7 @@ void AddFloor(const Trajectory& trajectory, const TrajectoryDemands& demands,
     check->not_covered.push_back(Formatted("ZMP and friction for %.4g s in which %s", time, why));
   };
   tell(in_air, "no contact is claimed");
-  tell(uneven, "contacts are at heights more than 1 mm apart, or on less than three points");
+  tell(uneven, "contacts are no soles, or not level to --contact-distance");
 }
 
 }  // namespace halfstep::checker

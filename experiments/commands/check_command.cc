@@ -197,8 +197,10 @@ CommandAction DeclareCheck(CLI::App* app, const Toolbox&) {
   app->add_option("--contact", texts->contacts,
                   "LINK or LINK:FROM..TO [s], which stands still there; repeatable")
       ->allow_extra_args(false);
-  app->add_option("--contact-distance", command->demands.contact_distance,
-                  "by which a contact may move from where it begins [m] (default: 0.001)")
+  app->add_option(
+         "--contact-distance", command->demands.contact_distance,
+         "by which a contact may move from where it begins, and points of its sole be higher "
+         "than the lowest one [m] (default: 0.001)")
       ->check(CLI::Range(0.0, 10.0));
   app->add_option("--contact-angle", command->demands.contact_angle,
                   "by which a contact may turn from where it begins [rad] (default: 0.01)")

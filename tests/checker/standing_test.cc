@@ -131,6 +131,12 @@ TEST(Standing, SolesAreWhatIsLowest) {
   poses.row(5).setConstant(std::sin(0.01));
   SetBase(poses, &tilted);
   EXPECT_THAT(RefusalOf([&] { least(Cart(), tilted); }), HasSubstr("no time level soles"));
+  TrajectoryDemands within = Claims(0.0, {});
+  within.contact_distance = 0.2 * std::sin(0.02) + 1e-9;
+  EXPECT_TRUE(CheckTrajectory(tilted, Cart(), {}, within).proved());
+  within.contact_distance -= 2e-9;
+  EXPECT_THAT(RefusalOf([&] { CheckTrajectory(tilted, Cart(), {}, within); }),
+              HasSubstr("no time level soles"));
 }
 
 TEST(Standing, NothingPushesInAFreeFall) {
