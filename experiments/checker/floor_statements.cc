@@ -118,19 +118,16 @@ void AddFloor(const Trajectory& trajectory, const TrajectoryDemands& demands,
     const auto pushes = std::make_shared<Pushes>(motion, soles->reference);
     const auto add = [&](Kind kind, double demanded, const auto& margin) {
       const auto by_forces = [=, way = soles->way](double from, double to) {
-        const Push& floor = pushes->On(from, to).front();
+        const Push& floor = pushes->Below(0, from, to);
         if (!(floor.force[2].over[0].lo > 0.0)) throw NotDefined();
         const Rate scale = Inverse(floor.force[2]);
         const Seen<1> zmp = {-(floor.moment[1] * scale), floor.moment[0] * scale};
         return margin(EdgesAround(way, zmp), floor, zmp);
       };
-      const auto look = [=](double from, double to) { return pushes->Look(from, to, by_forces); };
-      statements->push_back({.kind = kind,
-                             .subject = one.Text(motion->robot().urdf()),
-                             .demanded = demanded,
-                             .span = {one.from, one.to, &motion->curves().times()},
-                             .look = look,
-                             .value = [look](double t) { return look(t, t).value; }});
+      Statement& statement = statements->emplace_back(ByPieces(one, *motion, by_forces));
+      statement.kind = kind;
+      statement.subject = one.Text(motion->robot().urdf());
+      statement.demanded = demanded;
     };
     if (demands.zmp) {
       add(Kind::kZmpRobot, *demands.zmp,

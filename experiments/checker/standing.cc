@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "experiments/checker/trajectory_statements.h"
 #include "wpg/files/suggestion.h"
 #include "wpg/files/text.h"
 #include "wpg/nth.h"
@@ -46,21 +47,64 @@ std::string NoAccelerations(const Trajectory& trajectory, const RobotMotion& mot
   return linear ? "linear pieces have no accelerations" : "";
 }
 
-const std::vector<Push>& Pushes::On(double from, double to) {
+const Pushes::ByLink& Pushes::On(double from, double to) {
   const auto known = known_.find({from, to});
   if (known != known_.end()) return known->second;
   const UrdfTree& urdf = motion_.robot().urdf();
-  if (known_.size() > 500'000 / urdf.links.size()) known_.clear();
-  std::vector<Push> pushes(urdf.links.size());
-  for (size_t i = pushes.size(); i-- > 0;) {  // a link comes after its parent
+  if (known_.size() > 250'000 / urdf.links.size()) known_.clear();
+  ByLink pushes{std::vector<Push>(urdf.links.size()), std::vector<Push>(urdf.links.size())};
+  for (size_t i = urdf.links.size(); i-- > 0;) {  // a link comes after its parent
     const auto link = static_cast<int>(i);
     const UrdfLink& of = urdf.links[i];
     if (of.mass > 0.0) {
-      pushes[i] += PushOf({of.mass, of.com, of.inertia}, motion_.On(link, from, to), reference_);
+      pushes.own[i] = PushOf({of.mass, of.com, of.inertia}, motion_.On(link, from, to), reference_);
+      pushes.below[i] += pushes.own[i];
     }
-    if (i > 0) Nth(pushes, motion_.robot().JointOf(link).parent) += pushes[i];
+    if (i > 0) Nth(pushes.below, motion_.robot().JointOf(link).parent) += pushes.below[i];
   }
   return known_.emplace(std::pair(from, to), std::move(pushes)).first->second;
+}
+
+Push Pushes::Others(int link, double from, double to) {
+  const auto& [own, below] = On(from, to);
+  Push sum;
+  for (int at = link; at > 0;) {
+    const int parent = motion_.robot().JointOf(at).parent;
+    sum += Nth(own, parent);
+    for (int other = 1; other < std::ssize(own); ++other) {
+      const bool beside = other != at && motion_.robot().JointOf(other).parent == parent;
+      if (beside) sum += Nth(below, other);
+    }
+    at = parent;
+  }
+  return sum;
+}
+
+// At a knot itself bounds are of the pieces on both sides, of numbers one by one.
+Statement ByPieces(const Standing& time, const RobotMotion& motion,
+                   const std::function<double(double from, double to)>& margin) {
+  constexpr double kBeside = 1e-7;  // [s]
+  const Span span{time.from, time.to, &motion.curves().times()};
+  const auto bound = [margin](double from, double to) {
+    try {
+      return margin(from, to);
+    } catch (const NotDefined&) {
+      return -kInfinity;
+    }
+  };
+  const auto value = [=](double t) {
+    if (!std::ranges::binary_search(*span.knots, t)) return bound(t, t);
+    const double before = t - kBeside, after = t + kBeside;
+    return std::min(before < span.begin ? kInfinity : bound(before, before),
+                    after > span.end ? kInfinity : bound(after, after));
+  };
+  const auto look = [=](double from, double to) {
+    Part part{.from = from, .to = to, .bound = -kInfinity};
+    part.value = value(part.middle());
+    if (!span.HasKnot(from, to)) part.bound = bound(from, to);
+    return part;
+  };
+  return {.span = span, .look = look, .value = value};
 }
 
 }  // namespace halfstep::checker

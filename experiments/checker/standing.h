@@ -27,39 +27,31 @@ std::vector<Standing> StandingOf(const TrajectoryDemands& demands, const RobotMo
 /// Why links have no accelerations between knots; "": they have.
 std::string NoAccelerations(const Trajectory& trajectory, const RobotMotion& motion);
 
-/// By link: what moves all that hangs on it, itself included. Those of the last intervals are
-/// remembered, for statements are looked at one after the other.
+/// What moves links. Those of the last intervals are remembered, for statements are looked at one
+/// after the other.
 class Pushes {
  public:
   /// Borrows the motion. Moments are about `reference`, in W [m].
   explicit Pushes(RobotMotion* motion, Eigen::Vector3d reference = {0, 0, 0})
       : motion_(*motion), reference_(std::move(reference)) {}
 
-  /// Precondition: no knot lies between both. Throws as RobotMotion::On.
-  const std::vector<Push>& On(double from, double to);
+  /// Of a link and all that hangs on it; of the root: of all. Precondition: no knot lies between
+  /// both. Throws as RobotMotion::On.
+  const Push& Below(int link, double from, double to) { return On(from, to).below[Index(link)]; }
+  /// Of all others.
+  Push Others(int link, double from, double to);
   const Eigen::Vector3d& reference() const { return reference_; }  ///< [m]
 
-  /// A lower bound of `margin` at every instant of an interval, and what it is in the middle; −∞
-  /// across knots, and where it throws NotDefined.
-  template <typename Margin>
-  Part Look(double from, double to, const Margin& margin) const {
-    Part part{.from = from, .to = to, .bound = -kInfinity, .value = -kInfinity};
-    const auto look = [&](double a, double b) {
-      try {
-        return margin(a, b);
-      } catch (const NotDefined&) {
-        return -kInfinity;
-      }
-    };
-    part.value = look(part.middle(), part.middle());
-    if (!motion_.Pieces().HasKnot(from, to)) part.bound = look(from, to);
-    return part;
-  }
-
  private:
+  struct ByLink {
+    std::vector<Push> own, below;
+  };
+  static size_t Index(int link) { return static_cast<size_t>(link); }
+  const ByLink& On(double from, double to);
+
   RobotMotion& motion_;
   Eigen::Vector3d reference_;
-  std::map<std::pair<double, double>, std::vector<Push>> known_;
+  std::map<std::pair<double, double>, ByLink> known_;
 };
 
 }  // namespace halfstep::checker

@@ -36,25 +36,19 @@ void AddFor(const Standing& time, int stands, RobotMotion* motion,
     const auto margin = [=](double from, double to) {
       const FrameIn<Curve>& X = motion->On(joint.child, from, to);
       const VectorIn<Rate> axis = FirstOf(X.Turned(VectorOf<Curve>(joint.axis)));
-      const std::vector<Push>& all = pushes->On(from, to);
-      Push push = Nth(all, joint.child);
-      if (carrying) {  // what the floor gives to all of the robot goes to that side
-        push.force = push.force - all.front().force;
-        push.moment = push.moment - all.front().moment;
-      }
+      // The floor moves all of the robot by way of the link that stands: on its side the joint
+      // bears what moves the others, the other way round.
+      const Push push =
+          carrying ? pushes->Others(joint.child, from, to) : pushes->Below(joint.child, from, to);
       const VectorIn<Rate> lever = FirstOf(X.p) - VectorOf<Rate>(pushes->reference());
       const Rate torque =
           Dot(axis, joint.slides ? push.force : push.moment - Cross(lever, push.force));
       return Beyond(joint.max_effort, torque.over[0].Magnitude());
     };
-    const auto look = [=](double from, double to) { return pushes->Look(from, to, margin); };
-    statements->push_back(
-        {.kind = TrajectoryFinding::Kind::kTorque,
-         .subject = stands < 0 ? joint.name : joint.name + ", by " + time.Text(urdf),
-         .span = {time.from, time.to, &motion->curves().times()},
-         .look = look,
-         .value = [look](double t) { return look(t, t).value; },
-         .slides = joint.slides});
+    Statement& statement = statements->emplace_back(ByPieces(time, *motion, margin));
+    statement.kind = TrajectoryFinding::Kind::kTorque;
+    statement.subject = stands < 0 ? joint.name : joint.name + ", by " + time.Text(urdf);
+    statement.slides = joint.slides;
   }
 }
 

@@ -25,6 +25,11 @@ struct Statement {
   bool slides = false;  ///< of a joint that slides
 };
 
+/// About a time in which the same contacts are claimed; kind, subject and demand are left open.
+/// `margin`: a lower bound of it on an interval without knots; may throw NotDefined.
+Statement ByPieces(const Standing& time, const RobotMotion& motion,
+                   const std::function<double(double from, double to)>& margin);
+
 /// Each adds what is asked; statements borrow the motion, `obstacles` and the scene. Sentences on
 /// what is not looked at go to `check`.
 /// Self clearance and clearance. `obstacles`: the scene's, as bodies. Throws InputError for links

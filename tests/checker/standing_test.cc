@@ -149,7 +149,7 @@ TEST(Standing, NothingPushesInAFreeFall) {
   const JointedRobot robot = Cart();
   RobotMotion motion(falls, robot);
   Pushes pushes(&motion);
-  for (const Rate& force : pushes.On(0.0, 1.0).front().force) {
+  for (const Rate& force : pushes.Below(0, 0.0, 1.0).force) {
     EXPECT_LT(force.over[0].Magnitude(), 1e-10);
   }
   const TrajectoryCheck check = CheckTrajectory(falls, robot, {}, Claims(0.0, 1.0));
@@ -243,8 +243,8 @@ TEST(Standing, ForcesAreSlopesOfMomenta) {
         floor[2] += weight;
         floor.tail<3>() += frames(t)[link].translation().cross(Eigen::Vector3d(0, 0, weight));
       }
-      const Push& at = pushes.On(t, t).front();
-      const Push& over = pushes.On(t - 0.001, t + 0.001).front();
+      const Push& at = pushes.Below(0, t, t);
+      const Push& over = pushes.Below(0, t - 0.001, t + 0.001);
       for (size_t k = 0; k < 6; ++k) {
         const Rate& sure = k < 3 ? at.force[k] : at.moment[k - 3];
         const Interval& wide = (k < 3 ? over.force[k] : over.moment[k - 3]).over[0];
@@ -321,7 +321,9 @@ TEST(Standing, WhatStandsCarriesTheOthers) {
   EXPECT_FALSE(FoundIn(less, Kind::kTorque, "swing, by arm from 0 to 1 s").proved);
   const TrajectoryCheck both =
       CheckTrajectory(CraneMoves(true), Crane(40, 40), {},
-                      {.contacts = {{.link = "arm", .to = 0.75}, {.link = "rail", .from = 0.5}}});
+                      {.contacts = {{.link = "arm", .to = 0.75}, {.link = "rail", .from = 0.5}},
+                       .contact_distance = 9.0,
+                       .contact_angle = 3.0});
   EXPECT_THAT(both.not_covered, Contains(HasSubstr("torques for 0.25 s in which not exactly one")));
 }
 
@@ -415,6 +417,22 @@ footsteps:
         ++compared[statement.kind];
       }
     }
+  }
+  // What is proved is what samples show, and no more.
+  for (const Statement& statement : statements) {
+    const bool knee = statement.subject.starts_with("left_knee");
+    if (statement.kind == Kind::kTorque && !knee) continue;
+    double least = kInfinity;
+    for (size_t k = 0; k + 1 < times.size(); ++k) {
+      for (int n = 0; n < 4; ++n) {
+        const double t = times[k] + 0.25 * n * (times[k + 1] - times[k]);
+        if (t < statement.span.begin || t > statement.span.end) continue;
+        least = std::min(least, statement.value(t));
+      }
+    }
+    const double off = statement.kind == Kind::kTorque ? 3e-3 : 1e-4;
+    EXPECT_TRUE(Prove(statement.span, least - off, statement.look).proved) << statement.subject;
+    EXPECT_FALSE(Prove(statement.span, least + 1e-9, statement.look).proved) << statement.subject;
   }
   EXPECT_GT(compared[Kind::kZmpRobot], 5);
   EXPECT_GT(compared[Kind::kFriction], 5);
