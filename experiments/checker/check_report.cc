@@ -54,6 +54,10 @@ std::string MissedText(const TrajectoryFinding& finding, const KindText& text) {
     return Formatted("%s at %.4f s: its velocity jumps there (linear pieces have no accelerations)",
                      finding.subject.c_str(), finding.at);
   }
+  if (std::isinf(finding.least)) {  // of the ZMP and friction
+    return Formatted("%s at %.4f s: the floor does not push there, or not inside of the soles",
+                     finding.subject.c_str(), finding.at);
+  }
   if (std::isnan(finding.least)) {
     return Formatted("%s at %.4f s: nothing is known there: out of reach, or singular",
                      finding.subject.c_str(), finding.at);
@@ -153,7 +157,8 @@ std::string TitleOf(const Trajectory& trajectory) {
   return Formatted("%s: %zu joints%s, %zu knots, %.4g s, %s between knots", trajectory.file.c_str(),
                    trajectory.joints.size(), trajectory.base.size() > 0 ? " and the root" : "",
                    trajectory.times.size(), trajectory.times.back() - trajectory.times.front(),
-                   Name(trajectory.interpolation));
+                   Name(trajectory.interpolation)) +
+         (trajectory.base_v.size() > 0 ? ", the root cubic" : "");
 }
 
 std::string CheckScreen(const std::string& title, const TrajectoryCheck& check) {

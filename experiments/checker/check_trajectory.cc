@@ -101,7 +101,7 @@ TrajectoryFinding FindingOf(const Statement& statement, const std::vector<double
   finding.at_knots = least;
   if (statement.most) {
     const double kept = LeastOf(statement.span, kNear, statement.look, &check->intervals);
-    finding.holds = Above(*statement.most - kept);
+    if (kept > -kInfinity) finding.holds = Above(*statement.most - kept);
   }
   return finding;
 }
@@ -161,7 +161,9 @@ TrajectoryCheck CheckTrajectory(const Trajectory& trajectory, const JointedRobot
   AddPairs(demands, scene, obstacles, &motion, &statements);
   AddGround(demands, &motion, &statements, &check);
   AddContacts(demands, &motion, &statements, &check);
-  AddTorques(trajectory, &motion, &statements, &check);
+  const std::vector<Standing> standing = StandingOf(demands, motion);
+  AddFloor(trajectory, demands, standing, &motion, &statements, &check);
+  AddTorques(trajectory, standing, &motion, &statements, &check);
   for (size_t i = 0; i < statements.size(); ++i) {
     const double done = static_cast<double>(i) / static_cast<double>(statements.size());
     check.stopped = progress && !progress(done);

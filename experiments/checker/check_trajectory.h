@@ -28,6 +28,13 @@ struct TrajectoryDemands {
   /// How far a corner of the box around a link's bodies is at most from where it is at `from` [m].
   double contact_distance = 1e-3;
   double contact_angle = 0.01;  ///< by how much it is turned at most from there [rad]
+  /// The ZMP is inside of the soles that are claimed to stand by at least that [m] ≥ 0; none: not
+  /// asked. A sole is the hull of those points of a link's bodies that are within contact_distance
+  /// of its lowest one when its claim begins, where they are then; all in the plane of the lowest.
+  std::optional<double> zmp = {};
+  /// This coefficient of friction suffices there, with ‖f_t‖ and the twist about the vertical;
+  /// none: not asked.
+  std::optional<double> friction = {};
   /// Pairs of links of which nothing is asked, beside neighbours.
   std::vector<std::pair<std::string, std::string>> ignored = {};
 };
@@ -68,7 +75,8 @@ struct TrajectoryFinding {
   /// Of what is not proved: the least at the trajectory's own knots, as dense sampling at its rate
   /// would see it.
   std::optional<double> at_knots = {};
-  /// Of a contact or the ground that is not proved: the least limit that is, for all t [m, rad].
+  /// Of a contact, the ground or friction that is not proved: the least limit that is, for all t
+  /// [m, rad, 1].
   std::optional<double> holds = {};
   bool slides = false;        ///< it is about a joint that slides: in m, not rad
   bool hint_missing = false;  ///< not proved, for the proof tells no direction there
@@ -91,10 +99,11 @@ ConvexBody BodyOfObstacle(const Obstacle& obstacle);
 /// Looks at every statement, in interval arithmetic. On [m − h, m + h] a pair of bodies keeps at
 /// least its gap along a direction at m less how far both may move (RobotMotion::Moved); where that
 /// is not enough the interval is halved (Prove). Contacts, the ground and torques are looked at by
-/// frames as functions of time (RobotMotion::On). `scene`: its obstacles, at rest; a mesh counts as
-/// its convex hull. `progress(done)`, done ∈ [0, 1], says whether to go on. Throws InputError for
-/// obstacles that move or are clouds, and for links and times of demands that are not there.
-/// Source: experiments/check.md.
+/// frames as functions of time (RobotMotion::On), forces by their second derivatives. `scene`: its
+/// obstacles, at rest; a mesh counts as its convex hull. `progress(done)`, done ∈ [0, 1], says
+/// whether to go on. Throws InputError for obstacles that move or are clouds, for links and times
+/// of demands that are not there, and for ZMP and friction that cannot be known. Source:
+/// experiments/check.md.
 TrajectoryCheck CheckTrajectory(const Trajectory& trajectory, const JointedRobot& robot,
                                 const Scene& scene, const TrajectoryDemands& demands,
                                 const std::function<bool(double done)>& progress = {});

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "wpg/files/input_error.h"
+#include "wpg/files/text.h"
 #include "wpg/nth.h"
 
 namespace halfstep::checker {
@@ -39,12 +41,38 @@ Control Cut(Control b, const Interval& u, bool rest) {
   return rest ? last : first;
 }
 
+// Of the cubic piece by positions and velocities, these times its duration.
+Control Cubic(const Interval& q0, const Interval& v0, const Interval& v1, const Interval& q1) {
+  return {q0, q0 + v0 / Interval(3.0), q1 - v1 / Interval(3.0), q1};
+}
+
+// Velocities of the base's seven numbers at a knot, of its quaternion q ½ωq.
+std::array<Interval, 7> BaseRates(const Trajectory& of, Eigen::Index k) {
+  const Eigen::Vector3d v = of.base_v.col(k).head<3>(), half = 0.5 * of.base_v.col(k).tail<3>();
+  const Vector turn = VectorOf(half), xyz = VectorOf(of.base.col(k).tail<3>());
+  const Interval w = of.base(3, k);
+  const Vector across = Cross(turn, xyz);
+  return {v[0],
+          v[1],
+          v[2],
+          -Dot(turn, xyz),
+          w * turn[0] + across[0],
+          w * turn[1] + across[1],
+          w * turn[2] + across[2]};
+}
+
+Control OfBase(const Trajectory& of, Eigen::Index i, Eigen::Index k, const Interval& h) {
+  const Interval b0 = of.base(i, k), b1 = of.base(i, k + 1);
+  if (of.base_v.size() == 0) return {b0, b1};
+  return Cubic(b0, h * Nth(BaseRates(of, k), i), h * Nth(BaseRates(of, k + 1), i), b1);
+}
+
 Control Positions(const Trajectory& of, Eigen::Index j, Eigen::Index k, const Interval& h) {
   const Interval q0 = of.q(j, k), q1 = of.q(j, k + 1);
   if (of.interpolation == Interpolation::kLinear) return {q0, q1};
   const Interval v0 = h * Interval(of.v(j, k)), v1 = h * Interval(of.v(j, k + 1));
   if (of.interpolation == Interpolation::kCubic) {
-    return {q0, q0 + v0 / Interval(3.0), q1 - v1 / Interval(3.0), q1};
+    return Cubic(q0, v0, v1, q1);
   }
   const Interval a0 = h * h * Interval(of.a(j, k)), a1 = h * h * Interval(of.a(j, k + 1));
   const Interval five = 5.0, twenty = 20.0, two = 2.0;
@@ -71,8 +99,7 @@ Curves::Curves(const Trajectory& trajectory)
       if (j < joints) {
         piece.control[0] = Positions(trajectory, j, knot, h);
       } else {
-        piece.control[0] = {trajectory.base(j - joints, knot),
-                            trajectory.base(j - joints, knot + 1)};
+        piece.control[0] = OfBase(trajectory, j - joints, knot, h);
       }
       for (size_t order = 1; order < kOrders; ++order) {
         piece.control[order] = Derivative(piece.control[order - 1], h);
@@ -95,6 +122,28 @@ Curves::Curves(const Trajectory& trajectory)
         joined.push_back(both);
       }
       levels.push_back(std::move(joined));
+    }
+  }
+  if (trajectory.base.size() > 0 && trajectory.base_v.size() > 0) CheckTurns(trajectory);
+}
+
+// With s the sum of both knots' quaternions, |s| ≤ 2, a quaternion q between both has s·q no less
+// than the least s·b_i, and so |q| no less than half of that. Straight pieces have s·b_i ≥ 1.
+void Curves::CheckTurns(const Trajectory& trajectory) const {
+  const auto base = static_cast<size_t>(trajectory.q.rows());
+  for (size_t k = 0; k + 1 < times_.size(); ++k) {
+    for (size_t i = 0; i < 4; ++i) {
+      Interval along;
+      for (size_t n = base + 3; n < base + 7; ++n) {
+        const Control& b = pieces_[n][k].control[0];
+        along = along + (b.front() + b.back()) * b[i];
+      }
+      if (along.lo > 0.26) continue;
+      throw InputError(
+          {trajectory.file +
+           Formatted(": base: knot %zu: turns too fast for the time until the next one "
+                     "(valid: knots nearer to each other)",
+                     k + 1)});
     }
   }
 }

@@ -17,7 +17,9 @@ namespace halfstep::checker {
 /// subdivision. The bounds of linear pieces are the knots themselves, without rounding.
 class Curves {
  public:
-  /// Of all joints of a trajectory, and after these the seven numbers of its base, if it has one.
+  /// Of all joints of a trajectory, and after these the seven numbers of its base, if it has one:
+  /// its quaternion is never shorter than ⅛. Throws InputError where velocities of the base are so
+  /// large that this is not sure.
   explicit Curves(const Trajectory& trajectory);
 
   double begin() const { return times_.front(); }              ///< the first knot [s]
@@ -41,6 +43,7 @@ class Curves {
     std::array<Interval, kOrders> hull;
   };
   Interval OfPart(const Piece& piece, int order, double from, double to, size_t k) const;
+  void CheckTurns(const Trajectory& trajectory) const;
 
   std::vector<double> times_;
   std::vector<std::vector<Piece>> pieces_;  // by joint

@@ -16,6 +16,26 @@ inline double Beyond(double x, double limit) {
   return x >= limit ? std::max(0.0, margin) : margin;
 }
 
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();  ///< of margins
+
+/// What is kept of a margin on an interval of time.
+struct Kept {
+  double bound = 0.0;         ///< at least that, at every instant
+  double value = 0.0;         ///< about that in the middle
+  bool hint_missing = false;  ///< no direction was told, which might show more
+
+  /// All of an interval, and about what its middle has.
+  static Kept Of(const Interval& over, const Interval& at) { return {over.lo, at.Middle()}; }
+  /// limit − |x|.
+  static Kept Under(double limit, const Interval& over, const Interval& at) {
+    return {Beyond(limit, over.Magnitude()), limit - at.Magnitude()};
+  }
+  /// The lesser of both.
+  friend Kept Least(const Kept& a, const Kept& b) {
+    return {std::min(a.bound, b.bound), std::min(a.value, b.value)};
+  }
+};
+
 /// What is known of a margin on an interval of time.
 struct Part {
   double from = 0.0;   ///< [s]
@@ -104,7 +124,7 @@ Proof Prove(const Span& span, double demanded, const Look& look) {
 /// parts suffice for that.
 template <typename Look>
 double LeastOf(const Span& span, double off, const Look& look, std::int64_t* intervals) {
-  double seen = std::numeric_limits<double>::infinity();
+  double seen = kInfinity;
   std::int64_t count = 0;
   const auto looked = [&](double from, double to) {
     const Part part = look(from, to);
@@ -115,7 +135,7 @@ double LeastOf(const Span& span, double off, const Look& look, std::int64_t* int
       span, looked,
       [&](const Part& worst) {
         return seen - worst.bound <= off || worst.to - worst.from < kFinestPart ||
-               count >= kMostParts;
+               count >= kMostParts || seen == -kInfinity;
       },
       &count);
   *intervals += count;

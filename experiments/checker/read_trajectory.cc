@@ -39,13 +39,15 @@ Column ColumnOf(const std::string& name) {
   return {name, 0};
 }
 
-// Which number of a pose a column of the base tells: x, y, z, qw … qz, roll, pitch, yaw; "": none.
+// Which number a column of the base tells: x, y, z, qw … qz, roll, pitch, yaw, vx … wz; "": none.
 std::string PoseColumn(const std::string& name) {
   if (!name.starts_with("base_") && !name.starts_with("root_")) return "";
   const std::string rest = name.substr(5);
   for (const auto& [unit, names] :
        {std::pair<std::string, std::vector<std::string>>{"_m", {"x", "y", "z"}},
         {"_rad", {"roll", "pitch", "yaw"}},
+        {"_m_s", {"vx", "vy", "vz"}},
+        {"_rad_s", {"wx", "wy", "wz"}},
         {"", {"qw", "qx", "qy", "qz"}}}) {
     for (const std::string& one : names) {
       if (rest == one || rest == one + unit) return one;
@@ -111,27 +113,33 @@ class Collected {
   const std::vector<double>& Pose(const std::string& number) const {
     const auto values = pose_.find(number);
     if (values == pose_.end()) {
-      Refuse(trajectory_.file, "base_" + number +
-                                   ": is missing (valid: x, y, z, and qw, qx, qy, qz or roll, "
-                                   "pitch, yaw of the base)");
+      Refuse(trajectory_.file,
+             "base_" + number +
+                 ": is missing (valid: x, y, z, and qw, qx, qy, qz or roll, "
+                 "pitch, yaw of the base; all of vx, vy, vz, wx, wy, wz or none)");
     }
     return values->second;
   }
   void AddBase() {
     const auto count = std::ssize(trajectory_.times);
-    Eigen::MatrixXd poses(7, count);
-    const bool angles = pose_.contains("roll") || pose_.contains("pitch") || pose_.contains("yaw");
+    Eigen::MatrixXd poses(7, count), velocities(6, count);
+    const auto tells = [this](const char* number) { return pose_.contains(number); };
+    const bool angles = tells("roll") || tells("pitch") || tells("yaw");
+    const bool moves =
+        tells("vx") || tells("vy") || tells("vz") || tells("wx") || tells("wy") || tells("wz");
     for (Eigen::Index k = 0; k < count; ++k) {
       const auto at = [&](const char* number) { return Pose(number)[static_cast<size_t>(k)]; };
-      Eigen::Quaterniond turn;
-      if (angles) {
-        turn = RollPitchYaw(at("roll"), at("pitch"), at("yaw"));
-      } else {
-        turn = {at("qw"), at("qx"), at("qy"), at("qz")};
-      }
-      poses.col(k) << at("x"), at("y"), at("z"), turn.w(), turn.x(), turn.y(), turn.z();
+      const Eigen::Vector3d place{at("x"), at("y"), at("z")};  // braces: in that order
+      const Eigen::Quaterniond turn =
+          angles ? Eigen::Quaterniond(RollPitchYaw(at("roll"), at("pitch"), at("yaw")))
+                 : Eigen::Quaterniond{at("qw"), at("qx"), at("qy"), at("qz")};
+      poses.col(k) << place, turn.w(), turn.vec();
+      if (!moves) continue;
+      const Eigen::Vector3d v{at("vx"), at("vy"), at("vz")}, w{at("wx"), at("wy"), at("wz")};
+      velocities.col(k) << v, w;
     }
     SetBase(std::move(poses), &trajectory_);
+    if (moves) SetBaseVelocities(std::move(velocities), &trajectory_);
   }
 
   const JointNames& names_;

@@ -56,6 +56,18 @@ void SetBase(Eigen::MatrixXd poses, Trajectory* trajectory) {
   trajectory->base = std::move(poses);
 }
 
+void SetBaseVelocities(Eigen::MatrixXd velocities, Trajectory* trajectory) {
+  for (Eigen::Index k = 0; k < velocities.cols(); ++k) {
+    for (const double v : velocities.col(k)) {
+      if (std::abs(v) <= kMost) continue;  // no NaN
+      Fail(trajectory->file, Formatted("base: knot %d: its velocity is no number (valid: within "
+                                       "1e6)",
+                                       static_cast<int>(k + 1)));
+    }
+  }
+  trajectory->base_v = std::move(velocities);
+}
+
 void CheckNumbers(const Trajectory& trajectory, const JointNames& names) {
   const std::string& file = trajectory.file;
   const std::vector<double>& times = trajectory.times;
@@ -92,6 +104,7 @@ void SetInterpolation(const std::optional<Interpolation>& chosen, Trajectory* tr
   trajectory->interpolation = chosen.value_or(v && a ? Interpolation::kQuintic
                                               : v    ? Interpolation::kCubic
                                                      : Interpolation::kLinear);
+  if (chosen == Interpolation::kLinear) trajectory->base_v.resize(0, 0);
   const bool enough = trajectory->interpolation == Interpolation::kLinear ||
                       (v && (a || trajectory->interpolation == Interpolation::kCubic));
   if (enough) return;

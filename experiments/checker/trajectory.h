@@ -28,9 +28,12 @@ struct Trajectory {
   Eigen::MatrixXd v;                ///< velocities [rad/s], or empty
   Eigen::MatrixXd a;                ///< accelerations [rad/s²], or empty
   /// Of the root link in W by knot, 7×knots: x, y, z [m], and the quaternion w, x, y, z (SetBase);
-  /// empty: it is fixed at W. Between knots all seven go straight, and the rotation is that of the
-  /// quaternion scaled to length 1.
+  /// empty: it is fixed at W. Between knots all seven go straight, or are cubic by their velocities
+  /// (Hermite), and the rotation is that of the quaternion scaled to length 1.
   Eigen::MatrixXd base;
+  /// Of the root link in W by knot, 6×knots: velocity of its origin [m/s] and angular velocity ω
+  /// [rad/s], so that the quaternion q has the velocity ½ωq; empty: the base goes straight.
+  Eigen::MatrixXd base_v;
   std::vector<std::string> unread;                       ///< columns of no joint
   Interpolation interpolation = Interpolation::kLinear;  ///< as chosen, or the most that there is
 };
@@ -48,8 +51,11 @@ JointNames NamesOf(const UrdfTree& urdf);
 /// 1, and such that neighbours turn into each other by the shorter way. Throws InputError for
 /// lengths that are not within 1 % of 1, and for numbers beyond 1e6.
 void SetBase(Eigen::MatrixXd poses, Trajectory* trajectory);
-/// Sets what joints do between knots: as chosen, or by what is there, as ROS' controllers do.
-/// Throws InputError where it needs what is not there.
+/// Sets Trajectory::base_v. Throws InputError for numbers beyond 1e6.
+void SetBaseVelocities(Eigen::MatrixXd velocities, Trajectory* trajectory);
+/// Sets what joints do between knots: as chosen, or by what is there, as ROS' controllers do. Where
+/// linear is chosen the base goes straight, too. Throws InputError where it needs what is not
+/// there.
 void SetInterpolation(const std::optional<Interpolation>& chosen, Trajectory* trajectory);
 /// Throws InputError for fewer than two knots, times that do not grow, no joint at all, joints that
 /// are told twice or are of `others`, and numbers beyond 1e6.
@@ -59,8 +65,9 @@ void CheckNumbers(const Trajectory& trajectory, const JointNames& names);
 ///   .csv         a first column `t_s`, `t`, `time` or `time_s`; then joints' columns in any order:
 ///                NAME or q_NAME_rad, NAME_vel or v_NAME_rad_s, NAME_acc or a_NAME_rad_s2; and, if
 ///                the root moves, its base_x_m, base_y_m, base_z_m, and base_qw, base_qx, base_qy,
-///                base_qz or base_roll_rad, base_pitch_rad, base_yaw_rad, all of them; also with
-///                `root_`, and without units
+///                base_qz or base_roll_rad, base_pitch_rad, base_yaw_rad, all of them, and its
+///                velocities base_vx_m_s …, base_wx_rad_s …, all six or none; also with `root_`,
+///                and without units
 ///   .yaml        trajectory_msgs/JointTrajectory: joint_names, and points with positions,
 ///                velocities, accelerations, time_from_start
 /// Columns of no joint are left out. Throws InputError with what is wrong, as the functions above,

@@ -8,6 +8,7 @@
 #include "experiments/checker/check_trajectory.h"
 #include "experiments/checker/interval_proof.h"
 #include "experiments/checker/robot_motion.h"
+#include "experiments/checker/standing.h"
 
 namespace halfstep::checker {
 
@@ -24,6 +25,11 @@ struct Statement {
   bool slides = false;  ///< of a joint that slides
 };
 
+/// About a time in which the same contacts are claimed; kind, subject and demand are left open.
+/// `margin`: a lower bound of it on an interval without knots; may throw NotDefined.
+Statement ByPieces(const Standing& time, const RobotMotion& motion,
+                   const std::function<double(double from, double to)>& margin);
+
 /// Each adds what is asked; statements borrow the motion, `obstacles` and the scene. Sentences on
 /// what is not looked at go to `check`.
 /// Self clearance and clearance. `obstacles`: the scene's, as bodies. Throws InputError for links
@@ -38,8 +44,13 @@ void AddGround(const TrajectoryDemands& demands, RobotMotion* motion,
 /// are not there.
 void AddContacts(const TrajectoryDemands& demands, RobotMotion* motion,
                  std::vector<Statement>* statements, TrajectoryCheck* check);
-/// What joints of a robot whose root is fixed have to give, by the links' masses.
-void AddTorques(const Trajectory& trajectory, RobotMotion* motion,
-                std::vector<Statement>* statements, TrajectoryCheck* check);
+/// Where the floor has to push under links that are said to stand, and by which friction. Throws
+/// InputError where it is asked for and cannot be known at any time.
+void AddFloor(const Trajectory& trajectory, const TrajectoryDemands& demands,
+              const std::vector<Standing>& standing, RobotMotion* motion,
+              std::vector<Statement>* statements, TrajectoryCheck* check);
+/// What joints have to give, by the links' masses: where the root is fixed, or one link stands.
+void AddTorques(const Trajectory& trajectory, const std::vector<Standing>& standing,
+                RobotMotion* motion, std::vector<Statement>* statements, TrajectoryCheck* check);
 
 }  // namespace halfstep::checker

@@ -13,37 +13,6 @@ Interval Abs(const Interval& x) { return Sqrt(Square(x)); }
 Interval Dot(const Direction& a, const Direction& b) { return a[0] * b[0] + a[1] * b[1]; }
 Rate Dot(const Direction& a, const Seen<1>& b) { return a[0] * b[0] + a[1] * b[1]; }
 
-// Of two points p ± ρu an edge lets ρ be inside/share.
-struct Room {
-  Rate inside;     // how far p is inside [m]
-  Interval share;  // how much nearer to the edge one of both is per metre of ρ; its upper bound
-
-  double middle() const { return inside.at[0].Middle() / share.hi; }
-};
-
-double Least(const std::vector<Room>& rooms) {
-  double least = kInfinity;
-  for (const Room& room : rooms) least = std::min(least, room.middle());
-  return least;
-}
-
-// Where all that stands does so at one height, u along that edge of the soles' hull which has most
-// room in the middle of the interval.
-std::vector<Room> RoomInHull(const WalkState& state, const Seen<1>& p) {
-  const std::vector<SupportEdge<1>> support = state.Support<1>({p, p});
-  std::vector<Room> best;
-  for (const SupportEdge<1>& along : support) {
-    std::vector<Room> rooms;
-    for (const SupportEdge<1>& edge : support) {
-      const auto &e = edge.along, &u = along.along;
-      const Interval across = e[0].over[0] * u[1].over[0] - e[1].over[0] * u[0].over[0];
-      rooms.push_back({edge.inside, across.Magnitude()});
-    }
-    if (best.empty() || Least(rooms) > Least(best)) best = std::move(rooms);
-  }
-  return best;
-}
-
 // Of soles at different heights, in the section (1 − λ)L + λR that has most room in the middle of
 // the interval; the disc of radius ρ/4 about p has to lie in it, too. Along an inward normal of an
 // edge p is (1 − λ)D_L + λD_R inside, which is linear in λ.
@@ -113,30 +82,15 @@ std::vector<Room> RoomInSection(const WalkState& state, const std::array<Seen<1>
 
 }  // namespace
 
-// Two points p ± ρu, each with half of the push and ± n_z/2ρ across u.
 Kept WalkStatements::Friction(WalkState* state) const {
   const WalkState::Dynamics& all = state->dynamics();
   const std::array<Seen<1>, 2> p = {all.At(state->HeightOf(0)), all.At(state->HeightOf(1))};
   const bool both = state->flight() == nullptr;
+  const Seen<1>& level = p[state->Stands(0) ? 0 : 1];
   const std::vector<Room> rooms = both && !state->AreLevel()
                                       ? RoomInSection(*state, p, robot_.sole_size)
-                                      : RoomInHull(*state, p[state->Stands(0) ? 0 : 1]);
-  const auto& [force, moment] = all.floor;
-  const Rate yaw = moment[2] - (all.zmp[0] * force[1] - all.zmp[1] * force[0]);
-  const Rate push = Inverse(force[2]);
-  const Rate square = force[0] * force[0] + force[1] * force[1];
-  // ‖f_t‖, which has no derivative at 0.
-  Interval side = Sqrt(square.over[0]), side_at = Sqrt(square.at[0]);
-  if (square.over[0].lo > 0.0) side = Sqrt(square).over[0];
-  Kept kept{kInfinity, kInfinity};
-  for (const Room& room : rooms) {
-    if (!(room.inside.over[0].lo > 0.0)) throw NotDefined();
-    const Rate turning = Interval(room.share.hi) * (yaw * Inverse(room.inside));
-    const Interval over = (side + Interval(turning.over[0].Magnitude())) * push.over[0];
-    const Interval at = (side_at + Interval(turning.at[0].Magnitude())) * push.at[0];
-    kept = Least(kept, Kept::Of(Interval(scene_.friction) - over, Interval(scene_.friction) - at));
-  }
-  return kept;
+                                      : RoomInHull(state->Support<1>({level, level}));
+  return FrictionLeft(rooms, all.floor, all.zmp, scene_.friction);
 }
 
 // τ = e·(Σ moments of the links that hang on the joint − that of the floor on the foot), about a

@@ -1,7 +1,6 @@
 #include "experiments/checker/walk_state.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "wpg/nth.h"
 
@@ -15,37 +14,6 @@ FrameIn<Curve> Upright(const Curve& x, const Curve& y, const Curve& z, const Cur
   frame.R = {VectorIn<Curve>{c, -s, 0.0}, VectorIn<Curve>{s, c, 0.0}, frame.R[2]};
   frame.p = {x, y, z};
   return frame;
-}
-
-// The hull's corners in doubles, counter-clockwise (Andrew's chains). They go along a direction
-// that sides of soles are hardly ever across: corners that are equally far along it, up to
-// rounding, may come in a wrong order, and the way around is not the hull's.
-template <int N>
-std::vector<size_t> HullHint(const std::vector<Seen<N>>& corners) {
-  const auto at = [&](size_t i) {
-    return Eigen::Vector2d(corners[i][0].at[0].Middle(), corners[i][1].at[0].Middle());
-  };
-  std::vector<size_t> order(corners.size()), hull;
-  std::iota(order.begin(), order.end(), size_t{0});
-  std::ranges::sort(order, [&](size_t i, size_t k) {
-    const Eigen::Vector2d along(0.7390851332151607, 0.6736120291832148);
-    return along.dot(at(i)) < along.dot(at(k));
-  });
-  for (int chain = 0; chain < 2; ++chain) {
-    const size_t begin = hull.size();
-    for (const size_t i : order) {
-      while (hull.size() >= begin + 2) {
-        const Eigen::Vector2d edge = at(hull.back()) - at(hull[hull.size() - 2]);
-        const Eigen::Vector2d next = at(i) - at(hull.back());
-        if (edge.x() * next.y() - edge.y() * next.x() > 1e-12) break;
-        hull.pop_back();
-      }
-      hull.push_back(i);
-    }
-    hull.pop_back();
-    std::ranges::reverse(order);
-  }
-  return hull;
 }
 
 }  // namespace
@@ -135,7 +103,9 @@ std::vector<SupportEdge<N>> WalkState::Support(const std::array<Seen<N>, 2>& poi
       sides.push_back(side);
     }
   }
-  const std::vector<size_t> hull = HullHint(seen);
+  std::vector<Eigen::Vector2d> middles;
+  for (const auto& [x, y] : seen) middles.emplace_back(x.at[0].Middle(), y.at[0].Middle());
+  const std::vector<size_t> hull = HullHint(middles);
   std::vector<SupportEdge<N>> edges;
   for (size_t i = 0; i < hull.size(); ++i) {
     const size_t a = hull[i], b = hull[(i + 1) % hull.size()];

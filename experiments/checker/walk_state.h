@@ -6,23 +6,11 @@
 
 #include "experiments/checker/leg_motion.h"
 #include "experiments/checker/push.h"
+#include "experiments/checker/support.h"
 #include "experiments/checker/walk_motion.h"
 #include "wpg/robot/robot_model.h"
 
 namespace halfstep::checker {
-
-template <int N>
-using Seen = std::array<Taylor<N>, 2>;  ///< x and y of a point in motion [m]
-
-/// An edge of a closed way around corners of the soles that stand, counter-clockwise as doubles see
-/// it. A point that lies to the left of every edge, by δ or more, is surrounded by the way, and so
-/// is the disc of radius δ, which no edge meets: so it lies in the corners' convex hull, whether
-/// the way is the hull's or not.
-template <int N>
-struct SupportEdge {
-  Seen<N> along;     ///< of length 1
-  Taylor<N> inside;  ///< how far to its left the point is [m]
-};
 
 /// The robot's walk on an interval of time, in which the same soles stand.
 class WalkState {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -12,26 +11,6 @@
 #include "planner/scene/scene.h"
 
 namespace halfstep::checker {
-
-inline constexpr double kInfinity = std::numeric_limits<double>::infinity();  ///< of margins
-
-/// What is kept of a margin on an interval of time.
-struct Kept {
-  double bound = 0.0;         ///< at least that, at every instant
-  double value = 0.0;         ///< about that in the middle
-  bool hint_missing = false;  ///< no direction was told, which might show more
-
-  /// All of an interval, and about what its middle has.
-  static Kept Of(const Interval& over, const Interval& at) { return {over.lo, at.Middle()}; }
-  /// limit − |x|.
-  static Kept Under(double limit, const Interval& over, const Interval& at) {
-    return {Beyond(limit, over.Magnitude()), limit - at.Magnitude()};
-  }
-  /// The lesser of both.
-  friend Kept Least(const Kept& a, const Kept& b) {
-    return {std::min(a.bound, b.bound), std::min(a.value, b.value)};
-  }
-};
 
 /// One statement about a walk: of all instants, or where it counts.
 struct WalkStatement {

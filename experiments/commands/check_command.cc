@@ -197,12 +197,21 @@ CommandAction DeclareCheck(CLI::App* app, const Toolbox&) {
   app->add_option("--contact", texts->contacts,
                   "LINK or LINK:FROM..TO [s], which stands still there; repeatable")
       ->allow_extra_args(false);
-  app->add_option("--contact-distance", command->demands.contact_distance,
-                  "by which a contact may move from where it begins [m] (default: 0.001)")
+  app->add_option(
+         "--contact-distance", command->demands.contact_distance,
+         "by which a contact may move from where it begins, and points of its sole be higher "
+         "than the lowest one [m] (default: 0.001)")
       ->check(CLI::Range(0.0, 10.0));
   app->add_option("--contact-angle", command->demands.contact_angle,
                   "by which a contact may turn from where it begins [rad] (default: 0.01)")
       ->check(CLI::Range(0.0, 3.0));
+  app->add_option("--zmp", command->demands.zmp,
+                  "the ZMP is inside of the soles that are claimed to stand by this [m] (default: "
+                  "not asked)")
+      ->check(CLI::Range(0.0, 1.0));
+  app->add_option("--friction", command->demands.friction,
+                  "coefficient that suffices under these soles (default: not asked)")
+      ->check(CLI::Range(0.0, 100.0));
   app->add_option("--ignore", texts->ignored,
                   "LINK=LINK of which no clearance is asked; repeatable")
       ->allow_extra_args(false);
@@ -215,7 +224,8 @@ CommandAction DeclareCheck(CLI::App* app, const Toolbox&) {
   return [app, command, texts] {
     for (const char* const option :
          {"--interpolation", "--self-clearance", "--clearance", "--acceleration", "--ground",
-          "--contact", "--contact-distance", "--contact-angle", "--ignore", "--package"}) {
+          "--contact", "--contact-distance", "--contact-angle", "--zmp", "--friction", "--ignore",
+          "--package"}) {
       if (app->count(option) == 0 || !fs::is_directory(command->trajectory)) continue;
       throw InputError({std::string(option) +
                         ": is of trajectories (valid for a run: --method, --robot, --scene)"});

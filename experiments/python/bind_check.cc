@@ -34,6 +34,8 @@ checker::Trajectory FromArrays(const py::dict& arrays) {
   trajectory.a = Rows(arrays["accelerations"]);
   const Eigen::MatrixXd base = Rows(arrays["base"]);
   if (base.size() > 0) checker::SetBase(base, &trajectory);
+  const Eigen::MatrixXd velocities = Rows(arrays["base_velocities"]);
+  if (velocities.size() > 0) checker::SetBaseVelocities(velocities, &trajectory);
   return trajectory;
 }
 
@@ -52,6 +54,8 @@ checker::TrajectoryDemands DemandsOf(const py::dict& options) {
   demands.ground = options["ground"].cast<std::optional<double>>();
   demands.contact_distance = options["contact_distance"].cast<double>();
   demands.contact_angle = options["contact_angle"].cast<double>();
+  demands.zmp = options["zmp"].cast<std::optional<double>>();
+  demands.friction = options["friction"].cast<std::optional<double>>();
   demands.ignored = options["ignore"].cast<std::vector<std::pair<std::string, std::string>>>();
   for (const auto& [link, from, to] :
        options["contacts"]

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <sstream>
 
 #include "experiments/checker/trajectory.h"
@@ -68,6 +69,27 @@ TEST(Trajectory, MayTellTheRootsPoses) {
   EXPECT_THAT(Refused("a.csv", "t,wrist,base_x,base_y,base_z\n0,1,0,0,0\n1,1,0,0,0\n"),
               HasSubstr("base_qw: is missing"));
   EXPECT_THAT(Refused("a.npz", ""), HasSubstr("hs.check"));
+}
+
+TEST(Trajectory, MayTellTheRootsVelocities) {
+  const std::string poses = "t,wrist,base_x,base_y,base_z,base_qw,base_qx,base_qy,base_qz,";
+  const auto text = [&](const std::string& names) {
+    std::string numbers;
+    for (int i = 1; i <= 1 + std::ranges::count(names, ','); ++i) {
+      numbers += "," + std::to_string(i);
+    }
+    return poses + names + "\n0,1,1,2,3,1,0,0,0" + numbers + "\n1,1,1,2,3,1,0,0,0" + numbers + "\n";
+  };
+  const Trajectory read =
+      Read("a.csv", text("base_wz_rad_s,base_vx_m_s,base_vy,root_vz,base_wx_rad_s,base_wy_rad_s"));
+  EXPECT_EQ(read.base_v.col(1), (Eigen::VectorXd(6) << 2, 3, 4, 5, 6, 1).finished());
+  EXPECT_TRUE(read.unread.empty());
+  EXPECT_THAT(Refused("a.csv", text("base_vx,base_vz,base_wx,base_wy,base_wz")),
+              HasSubstr("base_vy: is missing"));
+  EXPECT_THAT(Refused("a.csv", text("base_vx,root_vx")), HasSubstr("base_vx: is told twice"));
+  EXPECT_THAT(Refused("a.csv", "t,wrist,base_vx\n0,1,0\n1,1,0\n"), HasSubstr("base_x: is missing"));
+  EXPECT_THAT(Refused("a.csv", poses + "base_vx\n0,1,1,2,3,1,0,0,0,fast\n"),
+              HasSubstr("a.csv:2: base_vx"));
 }
 
 TEST(Trajectory, MistakesAreTold) {
@@ -167,6 +189,37 @@ TEST(CheckCommand, AsksForTheFloorAndForContacts) {
               AllOf(HasSubstr("base at 1.9375 s: -18.75 mm, -10 demanded; proved is 50 mm"),
                     HasSubstr("hand from 0 to 2 s"), HasSubstr("proved is 500 mm")));
   EXPECT_THAT(check({"--contact", "hand:0-1"}).err, HasSubstr("(valid: LINK or LINK:FROM..TO"));
+}
+
+TEST(CheckCommand, AsksForZmpAndFriction) {
+  const TemporaryFolder place;
+  WriteText(place / "box.urdf",
+            "<robot name='box'><link name='box'><inertial><mass value='5'/><inertia ixx='0.1' "
+            "iyy='0.1' izz='0.1' ixy='0' ixz='0' iyz='0'/></inertial><collision><geometry><box "
+            "size='0.2 0.2 0.6'/></geometry></collision></link><link name='lid'/><joint "
+            "name='hinge' type='revolute'><parent link='box'/><child link='lid'/><axis xyz='0 0 "
+            "1'/><limit lower='-1' upper='1' velocity='1' effort='1'/></joint></robot>");
+  WriteText(place / "box.csv",
+            "t,hinge,hinge_vel,base_x,base_y,base_z,base_qw,base_qx,base_qy,base_qz,base_vx,"
+            "base_vy,base_vz,base_wx,base_wy,base_wz\n0,0,0,0,0,0.3,1,0,0,0,0,0,0,0,0,0\n"
+            "1,0,0,1e-4,0,0.3,1,0,0,0,0,0,0,0,0,0\n");
+  const auto check = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"check", "box.csv", "--robot", "box.urdf"};
+    words.insert(words.end(), more.begin(), more.end());
+    return Halfstep(place.path(), words);
+  };
+  const Outcome stands = check({"--contact", "box", "--zmp", "0.09", "--friction", "0.1"});
+  EXPECT_EQ(stands.status, kSuccess) << stands.out << stands.err;
+  EXPECT_THAT(stands.out,
+              AllOf(HasSubstr("cubic between knots, the root cubic"),
+                    HasSubstr("zmp of the robot     proved for all t: 1, each by 9"),
+                    HasSubstr("friction             proved for all t: 1, each by 0.0")));
+  const Outcome slips = check({"--contact", "box", "--friction", "1e-9"});
+  EXPECT_EQ(slips.status, kFailed);
+  EXPECT_THAT(slips.out, AllOf(HasSubstr("friction             not proved: 1 of 1"),
+                               HasSubstr("as the limit")));
+  EXPECT_THAT(check({"--zmp", "0"}).err, HasSubstr("--zmp: no contact is claimed"));
+  EXPECT_THAT(check({"--contact", "box", "--zmp", "-1"}).err, HasSubstr("--zmp"));
 }
 
 // A robot file says where meshes are.

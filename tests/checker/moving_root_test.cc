@@ -54,7 +54,21 @@ Eigen::Isometry3d TrunkAt(const Trajectory& trajectory, double t) {
   while (t > trajectory.times[static_cast<size_t>(k + 1)]) ++k;
   const double from = trajectory.times[static_cast<size_t>(k)];
   const double u = (t - from) / (trajectory.times[static_cast<size_t>(k + 1)] - from);
-  const Eigen::VectorXd pose = (1 - u) * trajectory.base.col(k) + u * trajectory.base.col(k + 1);
+  Eigen::VectorXd pose = (1 - u) * trajectory.base.col(k) + u * trajectory.base.col(k + 1);
+  if (trajectory.base_v.size() > 0) {
+    const double h = trajectory.times[static_cast<size_t>(k + 1)] - from;
+    const auto rate = [&](Eigen::Index at) {
+      const Eigen::VectorXd v = trajectory.base_v.col(at), p = trajectory.base.col(at);
+      const Eigen::Quaterniond turn =
+          Eigen::Quaterniond(0, v[3], v[4], v[5]) * Eigen::Quaterniond(p[3], p[4], p[5], p[6]);
+      Eigen::VectorXd all(7);
+      all << v.head<3>(), 0.5 * turn.w(), 0.5 * turn.vec();
+      return Eigen::VectorXd(h * all);
+    };
+    pose = (1 + 2 * u) * (1 - u) * (1 - u) * trajectory.base.col(k) +
+           u * (1 - u) * (1 - u) * rate(k) + u * u * (3 - 2 * u) * trajectory.base.col(k + 1) -
+           u * u * (1 - u) * rate(k + 1);
+  }
   Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
   X.linear() =
       Eigen::Quaterniond(pose[3], pose[4], pose[5], pose[6]).normalized().toRotationMatrix();
@@ -117,7 +131,10 @@ TEST(MovingRoot, FramesAndMotionsHoldWhatIsStated) {
       knots.push_back({0.5 * k, 0.5 * draw(random), draw(random), draw(random), draw(random), q.w(),
                        q.x(), q.y(), q.z()});
     }
-    const Trajectory drawn = HopperTrajectory(knots);
+    Trajectory drawn = HopperTrajectory(knots);
+    if (i % 2 == 1) {  // cubic
+      SetBaseVelocities(Eigen::MatrixXd::NullaryExpr(6, 4, [&] { return draw(random); }), &drawn);
+    }
     RobotMotion motion(drawn, robot);
     const JointedRobot::Body& foot = robot.bodies().back();
     const auto at = [&](double t) -> Eigen::Vector3d {

@@ -59,6 +59,20 @@ class Checks(unittest.TestCase):
         self.assertEqual(told[0].findings, told[2].findings)
         self.assertEqual(len([one for one in told[0].missed if one.kind.startswith("contact")]), 4)
 
+    def test_velocities_of_the_root_are_taken(self):
+        rest = {"joints": ["hip"], "velocities": 0 * HIP, "base": BASE}
+        sinks = BASE.copy()
+        sinks[:, 2] += [0.01, 0.02]
+        speeds = np.zeros((2, 6))
+        speeds[0, 2] = -0.5  # 6 cm down between knots
+        straight, cubic = (self.check(TIMES, HIP, **{**rest, "base": sinks}, ground=0.01, **more)
+                           for more in ({}, {"base_velocities": speeds}))
+        self.assertTrue(straight)
+        self.assertEqual([one.subject for one in cubic.missed], ["leg"])
+        np.savez(self.file("v.npz"), times=TIMES, positions=HIP, velocities=0 * HIP,
+                 joints=["hip"], base=sinks, base_velocities=speeds)
+        self.assertEqual(self.check(self.file("v.npz"), ground=0.01).findings, cubic.findings)
+
     def test_obstacles_are_looked_at(self):
         ball = {"obstacles": [{"name": "ball", "sphere": {"radius_m": 0.05},
                                "pose": {"xyz": [0, 0, -0.5]}}]}
@@ -73,6 +87,13 @@ class Checks(unittest.TestCase):
                  lambda: self.check(joints=["hip", "knee"])),
                 (INPUT, "knee: is no joint", lambda: self.check(joints=["knee"])),
                 (INPUT, "base: shape", lambda: self.check(joints=["hip"], base=BASE[:, :6])),
+                (INPUT, "base_velocities: shape (2, 7) (valid: (2, 6))",
+                 lambda: self.check(joints=["hip"], base=BASE, base_velocities=BASE)),
+                (INPUT, "base: is missing",
+                 lambda: self.check(joints=["hip"], base_velocities=BASE[:, :6])),
+                (INPUT, "--zmp: no contact is claimed",
+                 lambda: self.check(joints=["hip"], zmp=0.01)),
+                (INPUT, "friction: -1", lambda: self.check(joints=["hip"], friction=-1)),
                 (INPUT, "base: knot 1: is no pose",
                  lambda: self.check(joints=["hip"], base=0 * BASE)),
                 (TypeError, "positions: not numbers",

@@ -18,7 +18,9 @@ from .walk import number
 
 __all__ = ["Check", "Finding", "check"]
 
-_ARRAYS = ("times", "joints", "positions", "velocities", "accelerations", "base")
+_ARRAYS = ("times", "joints", "positions", "velocities", "accelerations", "base",
+           "base_velocities")
+_COLUMNS = {"base": 7, "base_velocities": 6}
 
 
 class Finding(NamedTuple):
@@ -39,7 +41,7 @@ class Finding(NamedTuple):
     at_knots: float | None
     """Of what is not proved: the least at the trajectory's own knots."""
     holds: float | None
-    """Of a contact or the ground that is not proved: the least limit that is [m, rad]."""
+    """Of a contact, the ground or friction, not proved: the least limit that is [m, rad, 1]."""
 
 
 class Check:
@@ -74,11 +76,13 @@ class Check:
 
 def check(trajectory: Any, positions: Any = None, *, robot: str | os.PathLike,
           joints: Sequence[str] | None = None, velocities: Any = None, accelerations: Any = None,
-          base: Any = None, scene: str | os.PathLike | Mapping[str, Any] | Scene | None = None,
+          base: Any = None, base_velocities: Any = None,
+          scene: str | os.PathLike | Mapping[str, Any] | Scene | None = None,
           interpolation: str | None = None, clearance: float = 0.0, self_clearance: float = 0.0,
           acceleration: float | None = None, ground: float | None = None,
           contacts: Sequence[Any] = (), contact_distance: float = 0.001,
-          contact_angle: float = 0.01, ignore: Sequence[tuple[str, str]] = (),
+          contact_angle: float = 0.01, zmp: float | None = None, friction: float | None = None,
+          ignore: Sequence[tuple[str, str]] = (),
           packages: Mapping[str, str | os.PathLike] | None = None,
           progress: Callable[[str, float], None] | None = None) -> Check:
     """Proves what a joint trajectory keeps at every time between its knots (experiments/check.md).
@@ -89,11 +93,13 @@ def check(trajectory: Any, positions: Any = None, *, robot: str | os.PathLike,
 
     ``trajectory``: a .csv, .yaml or .npz file, or the knots' times (n) [s]; then ``positions``,
     ``velocities`` and ``accelerations`` (n×joints), in the order of ``joints``, and ``base``, if the
-    root moves (n×7): x, y, z [m], and its quaternion w, x, y, z. A .npz has arrays of these names:
-    times, joints, positions …. ``robot``: a URDF, a robot file or a shipped robot's name. The others
+    root moves (n×7): x, y, z [m], and its quaternion w, x, y, z; ``base_velocities`` (n×6): linear
+    [m/s], then angular [rad/s], both in the world's frame. A .npz has arrays of these names: times,
+    joints, positions …. ``robot``: a URDF, a robot file or a shipped robot's name. The others
     are options of ``halfstep check``; ``contacts``: links, or (link, from, to). Raises InputError.
     """
-    given = dict(zip(_ARRAYS, (trajectory, joints, positions, velocities, accelerations, base)))
+    given = dict(zip(_ARRAYS, (trajectory, joints, positions, velocities, accelerations, base,
+                               base_velocities)))
     if isinstance(trajectory, (str, os.PathLike)):
         if any(given[name] is not None for name in _ARRAYS[1:]):
             raise InputError("positions: are in the file (valid: a file, or arrays)")
@@ -111,6 +117,8 @@ def check(trajectory: Any, positions: Any = None, *, robot: str | os.PathLike,
         "packages": {name: os.path.abspath(path) for name, path in (packages or {}).items()},
         "acceleration": None if acceleration is None else _least("acceleration", acceleration),
         "ground": None if ground is None else _least("ground", ground),
+        "zmp": None if zmp is None else _least("zmp", zmp),
+        "friction": None if friction is None else _least("friction", friction),
         "clearance": _least("clearance", clearance),
         "self_clearance": _least("self_clearance", self_clearance),
         "contact_distance": _least("contact_distance", contact_distance),
@@ -144,9 +152,11 @@ def _arrays(given: dict[str, Any], name: str) -> dict[str, Any]:
         if given[what] is None and what != "positions":
             continue
         arrays[what] = _numbers(f"{name}: {what}", given[what], 2)
-        shape = (len(times), 7 if what == "base" else len(names))
+        shape = (len(times), _COLUMNS.get(what, len(names)))
         if arrays[what].shape != shape:
             raise InputError(f"{name}: {what}: shape {arrays[what].shape} (valid: {shape})")
+    if arrays["base"] is None and arrays["base_velocities"] is not None:
+        raise InputError(f"{name}: base: is missing (valid with base_velocities)")
     return arrays
 
 
