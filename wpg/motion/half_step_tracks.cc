@@ -88,21 +88,28 @@ void HalfStepTracks::AddMotion(double tau, WalkJet* jet) const {
 }
 
 void HalfStepTracks::AddRounding(double time, double places, WalkJet* error, WalkJet* size) const {
-  std::array<ProfileAccuracy, kNumProfiles> of;
-  for (size_t i = 0; i < num_profiles(); ++i) Nth(of, i) = profiles_[i]->Accuracy(time);
+  const auto accuracy = [&](size_t i) {
+    return i < num_profiles() ? profiles_[i]->Accuracy(time) : ProfileAccuracy();
+  };
+  const std::array<ProfileAccuracy, kNumProfiles> of = {
+      accuracy(kComProfile),  accuracy(kZmpProfile),  accuracy(kYawProfile),
+      accuracy(kFootProfile), accuracy(kLiftProfile), accuracy(kRiseProfile)};
+  // By their numbers: Eigen looks at each index.
+  double* const errors[] = {error->value.data(), error->first.data(), error->second.data()};
+  double* const sizes[] = {size->value.data(), size->first.data(), size->second.data()};
   for (const Track& track : tracks_) {
     if (track.profile == kRiseProfile && !rises_) continue;
     const auto& [e, most] = Nth(of, track.profile);
     const int q = track.quantity;
+    const double change = std::abs(track.change);
     // A mean of both ends, where the next half-step begins at one of them.
-    const double ends = 2.0 * places * place_error_[q], change = std::abs(track.change);
-    const auto add = [&](double own, double largest, double* to, double* sum) {
-      *to += own * change + largest * (ends + 3.0 * kRoundoff * change);
-      *sum += largest * change;
-    };
-    add(e.value, most.value, &error->value[q], &size->value[q]);
-    add(e.first, most.first, &error->first[q], &size->first[q]);
-    add(e.second, most.second, &error->second[q], &size->second[q]);
+    const double ends = 2.0 * places * place_error_[q] + 3.0 * kRoundoff * change;
+    errors[0][q] += e.value * change + most.value * ends;
+    errors[1][q] += e.first * change + most.first * ends;
+    errors[2][q] += e.second * change + most.second * ends;
+    sizes[0][q] += most.value * change;
+    sizes[1][q] += most.first * change;
+    sizes[2][q] += most.second * change;
   }
 }
 

@@ -9,8 +9,14 @@
 namespace halfstep {
 
 /// ‖S‖, or more, of a matrix R(1 + S) that is nearly the rotation R, S symmetric.
-inline double SkewOf(const Eigen::Matrix3d& R) {
-  return 0.5 * (R.transpose() * R - Eigen::Matrix3d::Identity()).norm() + 16.0 * kRoundoff;
+template <typename Rotation>
+double SkewOf(const Eigen::MatrixBase<Rotation>& R) {
+  // Of RᵀR − 1, which is symmetric.
+  const Eigen::Vector3d x = R.col(0), y = R.col(1), z = R.col(2);
+  const double xy = x.dot(y), yz = y.dot(z), zx = z.dot(x);
+  const double xx = x.dot(x) - 1.0, yy = y.dot(y) - 1.0, zz = z.dot(z) - 1.0;
+  return 0.5 * std::sqrt(xx * xx + yy * yy + zz * zz + 2.0 * (xy * xy + yz * yz + zx * zx)) +
+         16.0 * kRoundoff;
 }
 
 /// How far directions may be from those of the exact leg at the same angles, where each joint turns
