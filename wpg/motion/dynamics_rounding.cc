@@ -40,6 +40,18 @@ void AddArithmetic(const RobotDynamics::Body& body, const BodySizes& at, BodyRou
       (arm * force + inertia.mass * at.velocity * speed + norm * (at.spin1 + at.spin * at.spin));
 }
 
+// Of a point of the body that far from O.
+PointRounding OfPoint(const BodyRounding& body, const BodySizes& at, double arm) {
+  const double speed = at.velocity + at.spin * arm;
+  PointRounding off{.place = body.place};
+  off.speed =
+      body.velocity + Product(at.spin, body.spin, arm, body.place) + 16.0 * kRoundoff * speed;
+  off.acceleration = body.acceleration + Product(at.spin1, body.spin1, arm, body.place) +
+                     Product(at.spin, body.spin, speed, off.speed) +
+                     32.0 * kRoundoff * (at.acceleration + at.spin1 * arm + at.spin * speed);
+  return off;
+}
+
 BodyRounding OfWaist(const RobotModel& robot, const IntervalMotion& motion, const BodySizes& at) {
   const WalkJet &jet = motion.jet, &off = motion.off;
   const double height = std::abs(motion.posture.X_WB.translation().z());
@@ -202,14 +214,7 @@ bool IsFinite(const BodyRounding& off) {
 }  // namespace
 
 PointRounding BodyRounding::Of(const RobotDynamics::Body& body, const Vector3d& point) const {
-  const BodySizes at(body);
-  const double arm = point.norm(), speed = at.velocity + at.spin * arm;
-  PointRounding off{.place = place};
-  off.speed = velocity + Product(at.spin, spin, arm, place) + 16.0 * kRoundoff * speed;
-  off.acceleration = acceleration + Product(at.spin1, spin1, arm, place) +
-                     Product(at.spin, spin, speed, off.speed) +
-                     32.0 * kRoundoff * (at.acceleration + at.spin1 * arm + at.spin * speed);
-  return off;
+  return OfPoint(*this, BodySizes(body), point.norm());
 }
 
 double InertialMomentChange(const RobotDynamics::Body& body, double turned, double turn,
@@ -252,28 +257,29 @@ DynamicsRounding DynamicsRounding::At(const RobotModel& robot, const IntervalMot
     LegWay way(side, motion, at_m, accelerations);
     way.Down(hung_on, of_waist, X_WB.translation() - at_m.O(), &links);
     way.Up(OfSole(side, motion, at_m, gravity), &links);
-    off.known = off.known && accelerations.allFinite();
+    // On either way each link is off by at least as much as the one before.
+    off.known = off.known && accelerations.allFinite() && IsFinite(links[2]) && IsFinite(links[3]);
     for (const BodyRounding& link : links) {
-      off.known = off.known && IsFinite(link);
       off.sums.moment += link.moment;
       off.sums.force += link.force;
     }
   }
+  off.known = off.known && std::isfinite(off.sums.moment + off.sums.force);
   return off;
 }
 
 WrenchRounding DynamicsRounding::OfBody(const RobotDynamics::Body& body, const BodyRounding& off,
                                         const Vector3d& pole) {
-  const Vector3d &com = body.inertia.com, turn = body.velocity.head<3>();
-  const Vector3d velocity = body.velocity.tail<3>() + turn.cross(com);
-  const Vector3d acceleration =
-      body.acceleration.tail<3>() + body.acceleration.head<3>().cross(com) + turn.cross(velocity);
-  const PointRounding of_com = off.Of(body, com);
-  const double mass = body.inertia.mass;
-  return {.moment = mass * Product((com - pole).norm(), of_com.place, acceleration.norm(),
-                                   of_com.acceleration) +
-                    InertialMomentChange(body, off.turn, off.spin, off.spin1) + off.moment +
-                    pole.norm() * off.force,
+  const BodySizes at(body);
+  const Vector3d& com = body.inertia.com;
+  const double arm = com.norm(), mass = body.inertia.mass;
+  const PointRounding of_com = OfPoint(off, at, arm);
+  const double acceleration =
+      at.acceleration + at.spin1 * arm + at.spin * (at.velocity + at.spin * arm);
+  return {.moment =
+              mass * Product((com - pole).norm(), of_com.place, acceleration, of_com.acceleration) +
+              InertialMomentChange(body, off.turn, off.spin, off.spin1) + off.moment +
+              pole.norm() * off.force,
           .force = mass * of_com.acceleration + off.force};
 }
 

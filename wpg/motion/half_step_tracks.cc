@@ -94,23 +94,32 @@ void HalfStepTracks::AddRounding(double time, double places, WalkJet* error, Wal
   const std::array<ProfileAccuracy, kNumProfiles> of = {
       accuracy(kComProfile),  accuracy(kZmpProfile),  accuracy(kYawProfile),
       accuracy(kFootProfile), accuracy(kLiftProfile), accuracy(kRiseProfile)};
-  // By their numbers: Eigen looks at each index.
-  double* const errors[] = {error->value.data(), error->first.data(), error->second.data()};
-  double* const sizes[] = {size->value.data(), size->first.data(), size->second.data()};
-  for (const Track& track : tracks_) {
-    if (track.profile == kRiseProfile && !rises_) continue;
-    const auto& [e, most] = Nth(of, track.profile);
-    const int q = track.quantity;
-    const double change = std::abs(track.change);
+  // Of quantities one after the other that move alike.
+  const auto add = [&]<int kCount>(std::integral_constant<int, kCount>, const Track* track) {
+    using Numbers = Eigen::Array<double, kCount, 1>;
+    const auto& [e, most] = Nth(of, track->profile);
+    const int q = track->quantity;
+    Numbers change;
+    for (int i = 0; i < kCount; ++i) change[i] = std::abs(track[i].change);
     // A mean of both ends, where the next half-step begins at one of them.
-    const double ends = 2.0 * places * place_error_[q] + 3.0 * kRoundoff * change;
-    errors[0][q] += e.value * change + most.value * ends;
-    errors[1][q] += e.first * change + most.first * ends;
-    errors[2][q] += e.second * change + most.second * ends;
-    sizes[0][q] += most.value * change;
-    sizes[1][q] += most.first * change;
-    sizes[2][q] += most.second * change;
-  }
+    const Numbers ends =
+        2.0 * places * place_error_.segment<kCount>(q).array() + 3.0 * kRoundoff * change;
+    error->value.segment<kCount>(q).array() += e.value * change + most.value * ends;
+    error->first.segment<kCount>(q).array() += e.first * change + most.first * ends;
+    error->second.segment<kCount>(q).array() += e.second * change + most.second * ends;
+    size->value.segment<kCount>(q).array() += most.value * change;
+    size->first.segment<kCount>(q).array() += most.first * change;
+    size->second.segment<kCount>(q).array() += most.second * change;
+  };
+  constexpr std::integral_constant<int, 1> kOne;
+  constexpr std::integral_constant<int, 2> kPlace;
+  add(kPlace, &tracks_[0]);  // CoM
+  add(kPlace, &tracks_[2]);  // ZMP
+  add(kOne, &tracks_[4]);
+  add(kPlace, &tracks_[5]);  // the swing foot
+  add(kOne, &tracks_[7]);
+  add(kOne, &tracks_[8]);
+  if (rises_) add(kOne, &tracks_[9]);
 }
 
 void HalfStepTracks::AddSecondBounds(double from, double to, WalkState* bounds) const {

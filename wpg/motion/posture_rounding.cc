@@ -102,15 +102,14 @@ LegRounding RoundingOfPostures::OfLeg(Side side, const WalkJet& jet, const WalkJ
   const double lever = lever_W.norm();
   const double far = Sum(posture.X_WB.translation()) + Sum(posture.X_WSole[s].translation());
 
-  // Pose of the sole in B: that of the computed angles, and the demanded one.
-  const Eigen::Matrix3d R = R_BW * posture.X_WSole[s].linear();
+  // Pose of the sole: that of the computed angles, and the demanded one.
   const Eigen::Isometry3d& placed = frames.X_BLink[6];
   const Placing placing = PlacingOf(frames, q, chain, skew);
   const double sole = walk.value.segment<3>(foot).sum(), sole_turn = walk.value[foot + 3];
   const double demanded = waist.place + sole + waist.turn * lever + 12.0 * kU * lever;
   const double place = (placed.translation() - R_BW * lever_W).norm() + placing.place + demanded;
-  const double turn =
-      0.75 * (placed.linear() - R).norm() + 1.5 * placing.turn + waist.turn + sole_turn + 24.0 * kU;
+  const double turn = 0.75 * (posture.X_WLink[s][6].linear() - posture.X_WSole[s].linear()).norm() +
+                      1.5 * placing.turn + waist.turn + sole_turn + 24.0 * kU;
 
   // |x| ≤ |Y|·asked + (|1 − YJ| + |Y|·|J's error|)·|x|, J's error growing with |x|; of the
   // product's own rounding, 64u of the norms of six columns.
@@ -157,8 +156,9 @@ LegRounding RoundingOfPostures::OfLeg(Side side, const WalkJet& jet, const WalkJ
                                  R_BW * (v.segment<3>(foot) - posture.waist_velocity -
                                          v[kWaistYaw] * Vector3d::UnitZ().cross(lever_W)));
   // V₆ − V_l about the sole, and a bound of H δq by its parts.
-  Vector3d turned_on{0, 0, 0}, moved_on{0, 0, 0}, bent_turns{0, 0, 0}, bent_places{0, 0, 0};
-  for (size_t l = 6; l-- > 0;) {
+  Vector3d turned_on = speeds[5] * frames.axis_B[5], moved_on = speeds[5] * moments[5];
+  Vector3d bent_turns{0, 0, 0}, bent_places{0, 0, 0};
+  for (size_t l = 5; l-- > 0;) {
     const Eigen::Index i = static_cast<Eigen::Index>(l);
     const Vector3d &axis = frames.axis_B[l], &moment = moments[l];
     bent_turns += rounding.q[i] * axis.cross(turned_on).cwiseAbs();
@@ -194,17 +194,14 @@ LegRounding RoundingOfPostures::OfLeg(Side side, const WalkJet& jet, const WalkJ
 PostureRounding RoundingOfPostures::At(const WalkJet& jet, const WalkJet& walk,
                                        const Posture& posture) const {
   const Upright waist = WaistOf(robot_, jet, walk);
-  PostureRounding rounding;
-  rounding.origin = waist.place;
-  rounding.origin_speed = waist.speed;
-  rounding.waist =
-      waist.place + waist.turn * waist_ + 12.0 * kU * (Sum(posture.X_WB.translation()) + waist_);
-  rounding.waist_speed =
-      waist.speed + waist_ * (waist.rate + waist.turn * std::abs(jet.first[kWaistYaw]));
-  for (const Side side : {Side::kLeft, Side::kRight}) {
-    Nth(rounding.legs, Index(side)) = OfLeg(side, jet, walk, waist, posture);
-  }
-  return rounding;
+  return {.origin = waist.place,
+          .origin_speed = waist.speed,
+          .waist = waist.place + waist.turn * waist_ +
+                   12.0 * kU * (Sum(posture.X_WB.translation()) + waist_),
+          .waist_speed =
+              waist.speed + waist_ * (waist.rate + waist.turn * std::abs(jet.first[kWaistYaw])),
+          .legs = {OfLeg(Side::kLeft, jet, walk, waist, posture),
+                   OfLeg(Side::kRight, jet, walk, waist, posture)}};
 }
 
 }  // namespace halfstep
