@@ -25,7 +25,8 @@ struct Placing {
 
 Placing PlacingOf(const LegFrames& frames, const Vector6d& q, double chain, double skew_of_links) {
   PlacingRounding rounding;
-  for (size_t j = 0; j < 6; ++j) {
+  rounding.TurnedFirst(q[0]);
+  for (size_t j = 1; j < 6; ++j) {
     rounding.Turned(q[static_cast<Eigen::Index>(j)],
                     SkewOf(frames.X_BLink[j].linear()) + skew_of_links);
   }

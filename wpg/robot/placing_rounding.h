@@ -28,15 +28,18 @@ class PlacingRounding {
   /// A joint turned by `angle` [rad], after which a matrix that it turned has that `skew`.
   void Turned(double angle, double skew) {
     angle = std::abs(angle);
-    turn_ += std::min(angle + angle * angle, 4.3) * skew_ +
-             (24.0 + 40.0 * std::min(angle, 1.3)) * kRoundoff;
+    turn_ += std::min(angle + angle * angle, 4.3) * skew_ + OfTurn(angle);
     skew_ = skew;
     most_ = std::max(most_, skew);
   }
+  /// The first joint: it turns a matrix that is exact, so no column of it is off by more.
+  void TurnedFirst(double angle) { Turned(angle, 2.0 * OfTurn(std::abs(angle))); }
   /// Of any direction that was turned so far [rad].
   double turn() const { return turn_ + most_; }
 
  private:
+  static double OfTurn(double angle) { return (24.0 + 40.0 * std::min(angle, 1.3)) * kRoundoff; }
+
   double turn_ = 0.0, skew_ = 0.0, most_ = 0.0;
 };
 
