@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "wpg/nth.h"
 #include "wpg/rounded.h"
 
 namespace halfstep {
@@ -38,23 +37,8 @@ Vector6d AccelerationRounding(const IntervalMotion& motion, const RobotDynamics&
   demanded[5] += gravity;
   const Vector6d missing = about(demanded - links[5].acceleration);
 
-  // How the sole's acceleration about a point that rests changes with the angles, and speeds.
   const Vector6d of_waist = about(dynamics.waist().velocity);
   const Vector6d last = about(links[5].velocity), last1 = about(links[5].acceleration);
-  Matrix6d H, by_speed, by_angle;
-  for (size_t j = 0; j < 6; ++j) {
-    const Vector6d screw = about(links[j].screw), velocity = about(links[j].velocity);
-    const Vector6d after = last - velocity, carried = CrossMotion(velocity, screw);
-    const Eigen::Index i = static_cast<Eigen::Index>(j);
-    H.col(i) = CrossMotion(screw, after);
-    by_speed.col(i) = carried + H.col(i);
-    by_angle.col(i) =
-        CrossMotion(screw, last1 - about(links[j].acceleration)) + CrossMotion(carried, after);
-  }
-  Matrix6d Y;  // for twists in the axes of W
-  Y.leftCols<3>() = posture.jacobian_inverse[s].leftCols<3>() * R.transpose();
-  Y.rightCols<3>() = posture.jacobian_inverse[s].rightCols<3>() * R.transpose();
-  const Matrix6d of_speeds = Y * by_speed, of_angles = of_speeds * (Y * H) - Y * by_angle;
 
   // Sums of all speeds and accelerations that are turned or carried by the leg.
   const double rate = std::abs(jet.first[kWaistYaw]) + std::abs(jet.first[yaw]);
@@ -71,8 +55,9 @@ Vector6d AccelerationRounding(const IntervalMotion& motion, const RobotDynamics&
   const double arm = pole.norm(), place = waist.place + arm * waist.turn;
   const double sole_off = off.value.segment<3>(foot).sum() + 4.0 * kRoundoff * arm;
   const double sole1_off = off.first.segment<3>(foot).sum();
+  const double bent = leg.q.sum(), bent1 = leg.speeds.sum();
   // All but what is of first order in the errors of angles and speeds.
-  const double bent1 = leg.speeds.sum(), bent2 = leg.turn * (leg.turn + 64.0 * kRoundoff);
+  const double bent2 = leg.turn * (leg.turn + 64.0 * kRoundoff);
   const double beyond = 64.0 * (bent2 * all + leg.turn * bent1 * speeds + bent1 * bent1);
   const double turn = missing.head<3>().norm() + off.second[yaw] + waist.spin1 + waist.spin * w +
                       2.0 * waist.turn * (w1 + rate * w) +
@@ -88,15 +73,15 @@ Vector6d AccelerationRounding(const IntervalMotion& motion, const RobotDynamics&
       9.0 * leg.placed * all + 3.0 * leg.placed_turn * moved * speeds +
       128.0 * kRoundoff * (all * size + carried + moved * speeds) + leg.chain * beyond +
       64.0 * moved * (bent2 * speeds + leg.turn * bent1);
-  const LegRounding::OfSole &pose = leg.pose, &twist = leg.twist;
-  const double y = Y.norm(), pose_size = pose.turn + pose.place;
-  const double sums = 64.0 * kRoundoff * y *
-                      (by_speed.norm() * (twist.turn + twist.place + y * H.norm() * pose_size) +
-                       by_angle.norm() * pose_size);
+  // What is, by the norms of ∂A/∂q̇ and ∂A/∂q: links turn and are carried by no more than the sums
+  // above, and no axis is farther from the sole than the chain is long.
+  const double swept = of_waist.tail<3>().norm();
+  const double bent_turn = speeds * bent1 + all * bent;
+  const double bent_along = (2.0 * leg.chain * speeds + swept) * bent1 +
+                            (3.0 * leg.chain * all + 2.0 * swept * speeds) * bent;
+  // Rows of Y have the same norms in the axes of W.
   const Vector6d asked =
-      RowsTimes(Y, turn, along) + RowsTimes(of_speeds * Y, twist.turn, twist.place) +
-      RowsTimes(of_angles * Y, pose.turn, pose.place) + of_speeds.cwiseAbs() * twist.rest +
-      of_angles.cwiseAbs() * pose.rest + sums * Y.rowwise().norm();
+      RowsTimes(posture.jacobian_inverse[s], turn + bent_turn, along + bent_along);
   return ResolvedRounding(asked, leg.of_inverse);
 }
 

@@ -19,17 +19,17 @@ double Product(double a, double off_a, double b, double off_b) {
 
 // The sizes of the halves of a twist and of an acceleration.
 struct BodySizes {
+  BodySizes() = default;
   explicit BodySizes(const RobotDynamics::Body& body)
       : spin(body.velocity.head<3>().norm()),
         velocity(body.velocity.tail<3>().norm()),
         spin1(body.acceleration.head<3>().norm()),
         acceleration(body.acceleration.tail<3>().norm()) {}
-  double spin, velocity, spin1, acceleration;
+  double spin = 0.0, velocity = 0.0, spin1 = 0.0, acceleration = 0.0;
 };
 
 // I a + v ×* I v as ForceOf computes it: products of at most six factors and sums of at most nine.
-void AddArithmetic(const RobotDynamics::Body& body, BodyRounding* off) {
-  const BodySizes at(body);
+void AddArithmetic(const RobotDynamics::Body& body, const BodySizes& at, BodyRounding* off) {
   const SpatialInertia& inertia = body.inertia;
   const double arm = inertia.com.norm(), norm = inertia.about_com.norm();
   const double speed = at.velocity + at.spin * arm;
@@ -40,10 +40,20 @@ void AddArithmetic(const RobotDynamics::Body& body, BodyRounding* off) {
       (arm * force + inertia.mass * at.velocity * speed + norm * (at.spin1 + at.spin * at.spin));
 }
 
-BodyRounding OfWaist(const RobotModel& robot, const IntervalMotion& motion,
-                     const RobotDynamics& at_m) {
+// Of a point of the body that far from O.
+PointRounding OfPoint(const BodyRounding& body, const BodySizes& at, double arm) {
+  const double speed = at.velocity + at.spin * arm;
+  PointRounding off{.place = body.place};
+  off.speed =
+      body.velocity + Product(at.spin, body.spin, arm, body.place) + 16.0 * kRoundoff * speed;
+  off.acceleration = body.acceleration + Product(at.spin1, body.spin1, arm, body.place) +
+                     Product(at.spin, body.spin, speed, off.speed) +
+                     32.0 * kRoundoff * (at.acceleration + at.spin1 * arm + at.spin * speed);
+  return off;
+}
+
+BodyRounding OfWaist(const RobotModel& robot, const IntervalMotion& motion, const BodySizes& at) {
   const WalkJet &jet = motion.jet, &off = motion.off;
-  const BodySizes at(at_m.waist());
   const double height = std::abs(motion.posture.X_WB.translation().z());
   const double speed = motion.posture.waist_velocity.norm(),
                speed_off = motion.rounding.origin_speed;
@@ -115,24 +125,23 @@ class LegWay {
         accelerations_off_(accelerations_off) {
     const Posture& posture = motion.posture;
     const auto& frames = Nth(posture.frames, Index(side));
-    for (size_t j = 0; j < 6; ++j) points_[j] = posture.X_WB * frames.point_B[j] - at_m.O();
+    for (size_t j = 0; j < 6; ++j) {
+      points_[j] = posture.X_WB * frames.point_B[j] - at_m.O();
+      sizes_[j] = BodySizes(links_[j]);
+      arms_[j] = links_[j].screw.tail<3>().norm();
+      added_ += std::abs(accelerations_[static_cast<Eigen::Index>(j)]) * (1.0 + arms_[j]);
+    }
     points_[6] = Nth(posture.X_WSole, Index(side)).translation() - at_m.O();
     far_ = 12.0 * kRoundoff *
            (posture.X_WB.translation().cwiseAbs().sum() + at_m.O().cwiseAbs().sum() + leg_.chain);
-    for (size_t j = 0; j < 6; ++j) {
-      added_ += std::abs(accelerations_[static_cast<Eigen::Index>(j)]) *
-                (1.0 + links_[j].screw.tail<3>().norm());
-    }
   }
 
   // Links 0–2 from the waist.
-  void Down(const BodyRounding& waist, const RobotDynamics::Body& body, const Vector3d& origin,
+  void Down(const BodyRounding& waist, const BodySizes& of_waist, const Vector3d& origin,
             std::array<BodyRounding, 6>* links) {
     Begin(waist, (points_[0] - origin).norm());
-    const RobotDynamics::Body* parent = &body;
     for (size_t j = 0; j < 3; ++j) {
-      Joint(j, *parent);
-      parent = &links_[j];
+      Joint(j, j == 0 ? of_waist : sizes_[j - 1]);
       (*links)[j] = Link(j, points_[j], points_[j + 1]);
     }
   }
@@ -141,7 +150,7 @@ class LegWay {
     Begin(sole, 0.0);
     turn_ += leg_.placed_turn;
     for (size_t j = 6; j > 3; --j) {
-      if (j < 6) Joint(j, links_[j]);
+      if (j < 6) Joint(j, sizes_[j]);
       (*links)[j - 1] = Link(j - 1, points_[j], points_[j - 1]);
     }
   }
@@ -153,14 +162,13 @@ class LegWay {
     place_ = base.place + distance * base.turn;
   }
   // The body beyond a joint from the one before, `at`.
-  void Joint(size_t joint, const RobotDynamics::Body& at_m) {
-    const BodySizes at(at_m);
+  void Joint(size_t joint, const BodySizes& at) {
     const Eigen::Index i = static_cast<Eigen::Index>(joint);
     const double q1 = std::abs(speeds_[i]), q2 = std::abs(accelerations_[i]);
     const double off1 = leg_.speeds[i], off2 = accelerations_off_[i];
     // Of the joint's twist q̇ S and of q̈ S.
     const double turn = turn_ + leg_.placed_turn + 16.0 * kRoundoff;
-    const double arm = links_[joint].screw.tail<3>().norm();
+    const double arm = arms_[joint];
     const double lever = place_ + leg_.placed + 8.0 * kRoundoff * arm +
                          points_[joint].norm() * turn;  // of a point × an axis
     const double w = Product(q1, off1, 1.0, turn), v = Product(q1, off1, arm, lever);
@@ -183,7 +191,7 @@ class LegWay {
                   leg_.placed + far_;
     place_ += turn_ * length;
     BodyRounding whole = link_;
-    AddArithmetic(links_[link], &whole);
+    AddArithmetic(links_[link], sizes_[link], &whole);
     return whole;
   }
 
@@ -191,7 +199,9 @@ class LegWay {
   const RobotDynamics::LegBodies& links_;
   const Vector6d &speeds_, &accelerations_, &accelerations_off_;
   std::array<Vector3d, 7> points_;  // axes' and the sole's, from O
-  double far_, added_ = 0.0;        // of coordinates in W; what q̈ adds, all joints together
+  std::array<BodySizes, 6> sizes_;
+  std::array<double, 6> arms_;  // of the axes from O
+  double far_, added_ = 0.0;    // of coordinates in W; what q̈ adds, all joints together
   BodyRounding link_;
   double turn_ = 0.0, place_ = 0.0;  // of what is exactly at the computed angles, at a point
 };
@@ -204,14 +214,7 @@ bool IsFinite(const BodyRounding& off) {
 }  // namespace
 
 PointRounding BodyRounding::Of(const RobotDynamics::Body& body, const Vector3d& point) const {
-  const BodySizes at(body);
-  const double arm = point.norm(), speed = at.velocity + at.spin * arm;
-  PointRounding off{.place = place};
-  off.speed = velocity + Product(at.spin, spin, arm, place) + 16.0 * kRoundoff * speed;
-  off.acceleration = acceleration + Product(at.spin1, spin1, arm, place) +
-                     Product(at.spin, spin, speed, off.speed) +
-                     32.0 * kRoundoff * (at.acceleration + at.spin1 * arm + at.spin * speed);
-  return off;
+  return OfPoint(*this, BodySizes(body), point.norm());
 }
 
 double InertialMomentChange(const RobotDynamics::Body& body, double turned, double turn,
@@ -239,8 +242,9 @@ double LegTurnRounding(const IntervalMotion& motion, Side side) {
 DynamicsRounding DynamicsRounding::At(const RobotModel& robot, const IntervalMotion& motion,
                                       const RobotDynamics& at_m, double gravity) {
   DynamicsRounding off;
-  off.waist = OfWaist(robot, motion, at_m);
-  AddArithmetic(at_m.waist(), &off.waist);
+  const BodySizes of_waist(at_m.waist());
+  off.waist = OfWaist(robot, motion, of_waist);
+  AddArithmetic(at_m.waist(), of_waist, &off.waist);
   off.known = IsFinite(off.waist);
   off.sums = {off.waist.moment, off.waist.force};
   const Eigen::Isometry3d& X_WB = motion.posture.X_WB;
@@ -251,30 +255,31 @@ DynamicsRounding DynamicsRounding::At(const RobotModel& robot, const IntervalMot
     accelerations = AccelerationRounding(motion, at_m, hung_on, side, gravity);
     auto& links = Nth(off.legs, Index(side));
     LegWay way(side, motion, at_m, accelerations);
-    way.Down(hung_on, at_m.waist(), X_WB.translation() - at_m.O(), &links);
+    way.Down(hung_on, of_waist, X_WB.translation() - at_m.O(), &links);
     way.Up(OfSole(side, motion, at_m, gravity), &links);
-    off.known = off.known && accelerations.allFinite();
+    // On either way each link is off by at least as much as the one before.
+    off.known = off.known && accelerations.allFinite() && IsFinite(links[2]) && IsFinite(links[3]);
     for (const BodyRounding& link : links) {
-      off.known = off.known && IsFinite(link);
       off.sums.moment += link.moment;
       off.sums.force += link.force;
     }
   }
+  off.known = off.known && std::isfinite(off.sums.moment + off.sums.force);
   return off;
 }
 
 WrenchRounding DynamicsRounding::OfBody(const RobotDynamics::Body& body, const BodyRounding& off,
                                         const Vector3d& pole) {
-  const Vector3d &com = body.inertia.com, turn = body.velocity.head<3>();
-  const Vector3d velocity = body.velocity.tail<3>() + turn.cross(com);
-  const Vector3d acceleration =
-      body.acceleration.tail<3>() + body.acceleration.head<3>().cross(com) + turn.cross(velocity);
-  const PointRounding of_com = off.Of(body, com);
-  const double mass = body.inertia.mass;
-  return {.moment = mass * Product((com - pole).norm(), of_com.place, acceleration.norm(),
-                                   of_com.acceleration) +
-                    InertialMomentChange(body, off.turn, off.spin, off.spin1) + off.moment +
-                    pole.norm() * off.force,
+  const BodySizes at(body);
+  const Vector3d& com = body.inertia.com;
+  const double arm = com.norm(), mass = body.inertia.mass;
+  const PointRounding of_com = OfPoint(off, at, arm);
+  const double acceleration =
+      at.acceleration + at.spin1 * arm + at.spin * (at.velocity + at.spin * arm);
+  return {.moment =
+              mass * Product((com - pole).norm(), of_com.place, acceleration, of_com.acceleration) +
+              InertialMomentChange(body, off.turn, off.spin, off.spin1) + off.moment +
+              pole.norm() * off.force,
           .force = mass * of_com.acceleration + off.force};
 }
 

@@ -88,22 +88,38 @@ void HalfStepTracks::AddMotion(double tau, WalkJet* jet) const {
 }
 
 void HalfStepTracks::AddRounding(double time, double places, WalkJet* error, WalkJet* size) const {
-  std::array<ProfileAccuracy, kNumProfiles> of;
-  for (size_t i = 0; i < num_profiles(); ++i) Nth(of, i) = profiles_[i]->Accuracy(time);
-  for (const Track& track : tracks_) {
-    if (track.profile == kRiseProfile && !rises_) continue;
-    const auto& [e, most] = Nth(of, track.profile);
-    const int q = track.quantity;
+  const auto accuracy = [&](size_t i) {
+    return i < num_profiles() ? profiles_[i]->Accuracy(time) : ProfileAccuracy();
+  };
+  const std::array<ProfileAccuracy, kNumProfiles> of = {
+      accuracy(kComProfile),  accuracy(kZmpProfile),  accuracy(kYawProfile),
+      accuracy(kFootProfile), accuracy(kLiftProfile), accuracy(kRiseProfile)};
+  // Of quantities one after the other that move alike.
+  const auto add = [&]<int kCount>(std::integral_constant<int, kCount>, const Track* track) {
+    using Numbers = Eigen::Array<double, kCount, 1>;
+    const auto& [e, most] = Nth(of, track->profile);
+    const int q = track->quantity;
+    Numbers change;
+    for (int i = 0; i < kCount; ++i) change[i] = std::abs(track[i].change);
     // A mean of both ends, where the next half-step begins at one of them.
-    const double ends = 2.0 * places * place_error_[q], change = std::abs(track.change);
-    const auto add = [&](double own, double largest, double* to, double* sum) {
-      *to += own * change + largest * (ends + 3.0 * kRoundoff * change);
-      *sum += largest * change;
-    };
-    add(e.value, most.value, &error->value[q], &size->value[q]);
-    add(e.first, most.first, &error->first[q], &size->first[q]);
-    add(e.second, most.second, &error->second[q], &size->second[q]);
-  }
+    const Numbers ends =
+        2.0 * places * place_error_.segment<kCount>(q).array() + 3.0 * kRoundoff * change;
+    error->value.segment<kCount>(q).array() += e.value * change + most.value * ends;
+    error->first.segment<kCount>(q).array() += e.first * change + most.first * ends;
+    error->second.segment<kCount>(q).array() += e.second * change + most.second * ends;
+    size->value.segment<kCount>(q).array() += most.value * change;
+    size->first.segment<kCount>(q).array() += most.first * change;
+    size->second.segment<kCount>(q).array() += most.second * change;
+  };
+  constexpr std::integral_constant<int, 1> kOne;
+  constexpr std::integral_constant<int, 2> kPlace;
+  add(kPlace, &tracks_[0]);  // CoM
+  add(kPlace, &tracks_[2]);  // ZMP
+  add(kOne, &tracks_[4]);
+  add(kPlace, &tracks_[5]);  // the swing foot
+  add(kOne, &tracks_[7]);
+  add(kOne, &tracks_[8]);
+  if (rises_) add(kOne, &tracks_[9]);
 }
 
 void HalfStepTracks::AddSecondBounds(double from, double to, WalkState* bounds) const {

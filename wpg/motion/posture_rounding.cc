@@ -25,7 +25,8 @@ struct Placing {
 
 Placing PlacingOf(const LegFrames& frames, const Vector6d& q, double chain, double skew_of_links) {
   PlacingRounding rounding;
-  for (size_t j = 0; j < 6; ++j) {
+  rounding.TurnedFirst(q[0]);
+  for (size_t j = 1; j < 6; ++j) {
     rounding.Turned(q[static_cast<Eigen::Index>(j)],
                     SkewOf(frames.X_BLink[j].linear()) + skew_of_links);
   }
@@ -102,24 +103,32 @@ LegRounding RoundingOfPostures::OfLeg(Side side, const WalkJet& jet, const WalkJ
   const double lever = lever_W.norm();
   const double far = Sum(posture.X_WB.translation()) + Sum(posture.X_WSole[s].translation());
 
-  // Pose of the sole in B: that of the computed angles, and the demanded one.
-  const Eigen::Matrix3d R = R_BW * posture.X_WSole[s].linear();
+  // Pose of the sole: that of the computed angles, and the demanded one.
   const Eigen::Isometry3d& placed = frames.X_BLink[6];
   const Placing placing = PlacingOf(frames, q, chain, skew);
   const double sole = walk.value.segment<3>(foot).sum(), sole_turn = walk.value[foot + 3];
   const double demanded = waist.place + sole + waist.turn * lever + 12.0 * kU * lever;
   const double place = (placed.translation() - R_BW * lever_W).norm() + placing.place + demanded;
-  const double turn =
-      0.75 * (placed.linear() - R).norm() + 1.5 * placing.turn + waist.turn + sole_turn + 24.0 * kU;
+  const double turn = 0.75 * (posture.X_WLink[s][6].linear() - posture.X_WSole[s].linear()).norm() +
+                      1.5 * placing.turn + waist.turn + sole_turn + 24.0 * kU;
 
-  // |x| ≤ |Y|·asked + (|1 − YJ| + |Y|·|J's error|)·|x|, J's error growing with |x|.
-  const Matrix6d &Y = posture.jacobian_inverse[s], J = LegJacobian(frames);
+  // |x| ≤ |Y|·asked + (|1 − YJ| + |Y|·|J's error|)·|x|, J's error growing with |x|; of the
+  // product's own rounding, 64u of the norms of six columns.
+  const Matrix6d& Y = posture.jacobian_inverse[s];
+  const Vector6d& speeds = posture.speeds[s];
   const Rows rows(Y);
+  std::array<Vector3d, 6> moments;  // of J's columns, below the axes
+  Vector6d left = Vector6d::Zero();
+  for (size_t l = 0; l < 6; ++l) {
+    const Vector3d& axis = frames.axis_B[l];
+    moments[l] = axis.cross(placed.translation() - frames.point_B[l]);
+    Vector6d column = Y * Spatial(axis, moments[l]);
+    column[static_cast<Eigen::Index>(l)] -= 1.0;
+    left += column.cwiseAbs();
+  }
   const double of_axes = placing.turn + 4.0 * kU,
                of_points = 3.0 * placing.place + 8.0 * kU * chain;
-  const Vector6d left = (Matrix6d::Identity() - Y * J).cwiseAbs().rowwise().sum() +
-                        64.0 * kU * (Y.cwiseAbs() * J.cwiseAbs().rowwise().sum()) +
-                        6.0 * rows.Of(of_axes, of_points);
+  left += 6.0 * rows.Of(of_axes + 64.0 * kU, of_points + 64.0 * kU * chain);
   LegRounding rounding;
   rounding.pose = {.turn = turn, .place = place};
   rounding.placed_turn = of_axes;
@@ -130,7 +139,6 @@ LegRounding RoundingOfPostures::OfLeg(Side side, const WalkJet& jet, const WalkJ
   // ones cannot leave that where it is resolved.
   const double most = share < 0.5 ? 4.0 * y : std::numeric_limits<double>::infinity();
   rounding.q = ResolvedRounding(asked, left + 36.0 * most * bent);
-  rounding.pose.rest = rounding.q - asked;
 
   // Distance of hip and ankle: from the pose, or from the knee's angle.
   rounding.reach = robot_.legs[s].closed_form()
@@ -145,20 +153,23 @@ LegRounding RoundingOfPostures::OfLeg(Side side, const WalkJet& jet, const WalkJ
   // Speeds: the twist that the computed ones miss, and what may be missing in that.
   const WalkState& v = jet.first;
   const double rate = std::abs(v[kWaistYaw]);
-  Vector6d twist;
-  twist << 0.0, 0.0, v[foot + 3] - v[kWaistYaw],
-      R_BW * (v.segment<3>(foot) - posture.waist_velocity -
-              v[kWaistYaw] * Vector3d::UnitZ().cross(lever_W));
-  const Vector6d& speeds = posture.speeds[s];
-  const Vector6d missing = twist - J * speeds;
+  const Vector6d twist = Spatial({0.0, 0.0, v[foot + 3] - v[kWaistYaw]},
+                                 R_BW * (v.segment<3>(foot) - posture.waist_velocity -
+                                         v[kWaistYaw] * Vector3d::UnitZ().cross(lever_W)));
+  // V₆ − V_l about the sole, and a bound of H δq by its parts.
+  Vector3d turned_on = speeds[5] * frames.axis_B[5], moved_on = speeds[5] * moments[5];
+  Vector3d bent_turns{0, 0, 0}, bent_places{0, 0, 0};
+  for (size_t l = 5; l-- > 0;) {
+    const Eigen::Index i = static_cast<Eigen::Index>(l);
+    const Vector3d &axis = frames.axis_B[l], &moment = moments[l];
+    bent_turns += rounding.q[i] * axis.cross(turned_on).cwiseAbs();
+    bent_places += rounding.q[i] * (axis.cross(moved_on) + moment.cross(turned_on)).cwiseAbs();
+    turned_on += speeds[i] * axis;
+    moved_on += speeds[i] * moment;
+  }
+  const Vector6d missing = twist - Spatial(turned_on, moved_on);
   const double all = speeds.cwiseAbs().sum();
   const double parts = v.segment<3>(foot).norm() + posture.waist_velocity.norm() + rate * lever;
-  Matrix6d H;
-  Vector6d after = Vector6d::Zero();  // V₆ − V_l
-  for (Eigen::Index l = 5; l >= 0; --l) {
-    H.col(l) = CrossMotion(J.col(l), after);
-    after += speeds[l] * J.col(l);
-  }
   // What the angles' errors do to the columns of J: at most five that each joint turns, by brackets
   // of screws to first order; and all beyond.
   const double bent_turn = 5.0 * rounding.q.sum();
@@ -172,12 +183,8 @@ LegRounding RoundingOfPostures::OfLeg(Side side, const WalkJet& jet, const WalkJ
                    std::abs(v[foot + 3] - v[kWaistYaw]) * place + waist.turn * parts +
                    of_points * all + 24.0 * kU * (parts + chain * all) + chain * beyond * all;
   rounding.chain = chain;
-  const Matrix6d Z = Y * H, ZY = Z * Y;
-  const double sums = 64.0 * kU * H.norm() * Y.norm() * (turn + place);
-  const Vector6d of_speeds = rows.Of(of_twist) + Rows(ZY).Of(rounding.pose) +
-                             Z.cwiseAbs() * rounding.pose.rest + sums * Y.rowwise().norm();
-  rounding.speeds = ResolvedRounding(of_speeds, rounding.of_inverse);
-  of_twist.rest = rounding.speeds - of_speeds;
+  rounding.speeds = ResolvedRounding(
+      rows.Of(of_twist) + Y.cwiseAbs() * Spatial(bent_turns, bent_places), rounding.of_inverse);
   rounding.point_speeds =
       waist.speed +
       farthest * (waist.rate + rounding.speeds.sum() + (all + rate) * (2.0 * turned + waist.turn)) +
@@ -188,17 +195,14 @@ LegRounding RoundingOfPostures::OfLeg(Side side, const WalkJet& jet, const WalkJ
 PostureRounding RoundingOfPostures::At(const WalkJet& jet, const WalkJet& walk,
                                        const Posture& posture) const {
   const Upright waist = WaistOf(robot_, jet, walk);
-  PostureRounding rounding;
-  rounding.origin = waist.place;
-  rounding.origin_speed = waist.speed;
-  rounding.waist =
-      waist.place + waist.turn * waist_ + 12.0 * kU * (Sum(posture.X_WB.translation()) + waist_);
-  rounding.waist_speed =
-      waist.speed + waist_ * (waist.rate + waist.turn * std::abs(jet.first[kWaistYaw]));
-  for (const Side side : {Side::kLeft, Side::kRight}) {
-    Nth(rounding.legs, Index(side)) = OfLeg(side, jet, walk, waist, posture);
-  }
-  return rounding;
+  return {.origin = waist.place,
+          .origin_speed = waist.speed,
+          .waist = waist.place + waist.turn * waist_ +
+                   12.0 * kU * (Sum(posture.X_WB.translation()) + waist_),
+          .waist_speed =
+              waist.speed + waist_ * (waist.rate + waist.turn * std::abs(jet.first[kWaistYaw])),
+          .legs = {OfLeg(Side::kLeft, jet, walk, waist, posture),
+                   OfLeg(Side::kRight, jet, walk, waist, posture)}};
 }
 
 }  // namespace halfstep
