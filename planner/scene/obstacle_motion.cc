@@ -42,7 +42,9 @@ Eigen::Isometry3d ObstacleMotion::PoseAt(const Eigen::Isometry3d& X_WO, double t
   const Waypoint at = FrameAt(*this, X_WO, t);
   Eigen::Isometry3d X = X_WO;
   X.translation() = at.translation;
-  X.linear() = AxisRotation(at.yaw, Eigen::Vector3d::UnitZ()) * X_WO.linear();
+  if (at.yaw != 0.0) {
+    X.linear() = AxisRotation(at.yaw, Eigen::Vector3d::UnitZ()) * X_WO.linear();
+  }
   return X;
 }
 

@@ -14,9 +14,11 @@ namespace halfstep {
 namespace {
 
 constexpr double kShortestStarts = 1.0 / 16;  // [s] start times are not cut below this
+constexpr size_t kFewBodies = 2;              // of which no cylinder is asked
 constexpr int kFinestPiece = 32;              // the first of those that are not cut
 constexpr int kFinestUnbounded = 1 << 14;     // the same where the motion has no bound yet
 constexpr double kClearanceRounding = 1e-9;   // [m]
+constexpr double kEnclosureRounding = 1e-9;   // of the cylinder around bodies [m]
 // Of pieces that are made and of bodies that are looked at, as PlanProgress::effort [µs].
 constexpr double kPieceCost = 15.0, kCheckCost = 0.3;
 
@@ -89,7 +91,7 @@ ObstacleTimes::ObstacleTimes(const RobotModel& robot, std::shared_ptr<const Moti
       world_(WithoutGround(scene)),
       bounds_(robot),
       clearance_(clearance + kClearanceRounding),
-      scratch_(robot.bodies.size()) {
+      scratch_(robot.bodies.size() + 1) {
   HALFSTEP_CHECK(clearance >= 0.0 && latest >= 0.0,
                  "clearance = " << clearance << ", latest = " << latest);
   for (const RobotBody& body : robot.bodies) shapes_.emplace_back(body.shape);
@@ -214,6 +216,7 @@ const ObstacleTimes::Piece& ObstacleTimes::PieceOf(Cover& cover, int n) const {
     piece.bounded = posture.reachable;
     for (const RobotBody& body : robot_.bodies) piece.X_SBody.push_back(posture.OfBody(body));
     piece.displacement.assign(robot_.bodies.size(), 0.0);
+    Enclose(&piece);
     return piece;
   }
   WalkState second = WalkState::Zero();
@@ -226,7 +229,28 @@ const ObstacleTimes::Piece& ObstacleTimes::PieceOf(Cover& cover, int n) const {
     piece.X_SBody.push_back(motion.posture.OfBody(body));
   }
   piece.displacement = std::move(motion.displacement);
+  Enclose(&piece);
   return piece;
+}
+
+void ObstacleTimes::Enclose(Piece* piece) const {
+  Eigen::AlignedBox3d box;
+  for (size_t body = 0; body < shapes_.size(); ++body) {
+    const Eigen::Vector3d center = piece->X_SBody[body] * shapes_[body].center();
+    const double radius = shapes_[body].radius() + piece->displacement[body] + kEnclosureRounding;
+    box.extend(Eigen::AlignedBox3d(center.array() - radius, center.array() + radius));
+  }
+  const Eigen::Vector3d middle = box.center();
+  ConvexBody around;
+  for (size_t body = 0; body < shapes_.size(); ++body) {
+    const Eigen::Vector3d center = piece->X_SBody[body] * shapes_[body].center();
+    const double radius = shapes_[body].radius() + piece->displacement[body] + kEnclosureRounding;
+    around.disc_radius = std::max(around.disc_radius, (center - middle).head<2>().norm() + radius);
+  }
+  around.vertices.resize(3, 2);
+  around.vertices << middle.x(), middle.x(), middle.y(), middle.y(), box.min().z(), box.max().z();
+  BoundBySphere(&around);
+  piece->around.emplace(std::move(around));
 }
 
 void ObstacleTimes::Collect(Cover& cover, const Eigen::Isometry3d& X_WS, double begin, double end,
@@ -251,19 +275,32 @@ bool ObstacleTimes::IsFree(Cover& cover, const Starts& starts) const {
   return IsFree(cover, 1, everything, starts);
 }
 
+std::pair<double, double> ObstacleTimes::TimesOf(const Cover& cover, const Piece& piece,
+                                                 const Starts& starts) {
+  if (starts.settled) return {starts.mid, 0.0};
+  return {starts.mid + piece.mid - cover.from, starts.half + piece.half};
+}
+
 bool ObstacleTimes::Clears(const Cover& cover, const Piece& piece, size_t body,
                            const Starts& starts) const {
   if (!piece.bounded) return false;
   ++checks_;
-  const double t = starts.settled ? starts.mid : starts.mid + piece.mid - cover.from;
-  const double half = starts.settled ? 0.0 : starts.half + piece.half;
+  const auto [t, half] = TimesOf(cover, piece, starts);
   return world_.Clears(shapes_[body], starts.X_WS * piece.X_SBody[body], t,
                        clearance_ + piece.displacement[body], &scratch_[body], half);
+}
+
+bool ObstacleTimes::AllClear(const Cover& cover, const Piece& piece, const Starts& starts) const {
+  if (!piece.bounded) return false;
+  ++checks_;
+  const auto [t, half] = TimesOf(cover, piece, starts);
+  return world_.Clears(*piece.around, starts.X_WS, t, clearance_, &scratch_.back(), half);
 }
 
 bool ObstacleTimes::IsFree(Cover& cover, int n, const std::vector<size_t>& bodies,
                            const Starts& starts) const {
   const Piece& piece = PieceOf(cover, n);
+  if (bodies.size() > kFewBodies && AllClear(cover, piece, starts)) return true;
   // Where the start times are much longer than the piece, they have to be cut first.
   const bool short_enough = !starts.settled && piece.half <= 0.25 * starts.half;
   const bool finest = cover.from == cover.to || n >= kFinestUnbounded ||

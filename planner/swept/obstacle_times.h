@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "planner/collision/collision_world.h"
@@ -23,10 +24,10 @@ namespace halfstep {
 /// When a robot's half-steps keep clear of the obstacles of a scene that move. An interval of start
 /// times is told only when a bound holds for all of it: each body is where it is in the middle of a
 /// piece of the half-step, or no farther from there than its motion allows; each obstacle is where
-/// it is in the middle of the times that are meant, or no farther than its speed allows. Where that
-/// does not decide, both are halved, down to 1/32 of T (less where the motion has no bound) and
-/// 1/16 s; what is undecided then is told as not free. Source: planner/README.md, "Planning in
-/// time".
+/// it is in the middle of the times that are meant, or no farther than its speed allows. A cylinder
+/// around all bodies is asked first. Where that does not decide, both are halved, down to 1/32 of T
+/// (less where the motion has no bound) and 1/16 s; what is undecided then is told as not free.
+/// Source: planner/README.md, "Planning in time".
 class ObstacleTimes : public HalfStepTimes {
  public:
   /// `robot`, `set` and `always` are borrowed and must outlive this. Bodies keep `clearance` ≥ 0
@@ -56,6 +57,7 @@ class ObstacleTimes : public HalfStepTimes {
     bool bounded = false;
     std::vector<Eigen::Isometry3d> X_SBody;  // at mid
     std::vector<double> displacement;        // from there, at most [m]
+    std::optional<CollisionShape> around;    // upright, holds all bodies wherever they are
   };
   // A half-step by halves of halves: piece 1 is all of it, and 2n and 2n + 1 are those of n.
   struct Cover {
@@ -79,11 +81,16 @@ class ObstacleTimes : public HalfStepTimes {
   TimeIntervals Answer(What what, int i, Side support, const Foothold& X_WS, double rise) const;
   Cover& CoverOf(What what, int i, Side support, double rise) const;
   const Piece& PieceOf(Cover& cover, int n) const;
+  void Enclose(Piece* piece) const;
   // Adds those of [begin, end] that are free.
   void Collect(Cover& cover, const Eigen::Isometry3d& X_WS, double begin, double end,
                TimeIntervals* free) const;
   bool IsFree(Cover& cover, const Starts& starts) const;
+  // The middle of the times at which bodies are looked at, and their half-width [s].
+  static std::pair<double, double> TimesOf(const Cover& cover, const Piece& piece,
+                                           const Starts& starts);
   bool Clears(const Cover& cover, const Piece& piece, size_t body, const Starts& starts) const;
+  bool AllClear(const Cover& cover, const Piece& piece, const Starts& starts) const;
   bool IsFree(Cover& cover, int n, const std::vector<size_t>& bodies, const Starts& starts) const;
 
   const RobotModel& robot_;
@@ -98,7 +105,7 @@ class ObstacleTimes : public HalfStepTimes {
   bool settles_ = true;
   TimeIntervals still_;  // when nothing moves, before settled_
   mutable std::mutex mutex_;
-  mutable std::vector<CollisionWorld::Scratch> scratch_;  // by body
+  mutable std::vector<CollisionWorld::Scratch> scratch_;  // by body, and of what is around them
   mutable std::map<CoverKey, Cover> covers_;
   mutable std::map<Question, TimeIntervals> known_;
   mutable std::int64_t checks_ = 0, made_ = 0;
