@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "wpg/motion/spatial.h"
-#include "wpg/nth.h"
 #include "wpg/robot/placing_rounding.h"
 #include "wpg/rounded.h"
 
