@@ -88,12 +88,13 @@ std::string PlannerConfig::CostName(bool in_time) const {
   return in_time ? "raw_duration" : "smoothed_duration";
 }
 
-Termination PlannerConfig::Enough() const {
+Termination PlannerConfig::Enough(bool in_time) const {
   constexpr std::int64_t kUnimproved = 500;
+  constexpr double kInTime = 4.0;  // times the work, since half-steps cost more there
   const bool best = name == kBest;
   if (unimproved_nodes == 0.0) return AtFirstPlan();
   std::vector<Termination> all;
-  if (best) all.push_back(WhenPlannedAfter(improving_effort));
+  if (best) all.push_back(WhenPlannedAfter((in_time ? kInTime : 1.0) * improving_effort));
   if (unimproved_nodes || !best) {
     all.push_back(WhenNotImprovedFor(unimproved_nodes ? static_cast<std::int64_t>(*unimproved_nodes)
                                                       : kUnimproved));
@@ -176,8 +177,8 @@ void DeclarePlanner(Fields& fields, PlannerConfig* c) {
     fields.Complain("unimproved_nodes", "has a fraction (valid: a whole number, or none)");
   }
   fields.Number("improving_effort", &c->improving_effort,
-                {.meaning = "`best` looks for better plans until this much work is used, or three "
-                            "times what the first plan took",
+                {.meaning = "`best` looks for better plans until this much work is used (in time "
+                            "four times that), or three times what the first plan took",
                  .min = 0.001,
                  .max = 86400});
   fields.Number("effort", &c->effort,

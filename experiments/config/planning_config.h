@@ -45,8 +45,8 @@ struct PlannerConfig {
   /// The cost that plans are compared by; `in_time`: of plans in time.
   StepCost Cost(bool in_time = false) const;
   std::string CostName(bool in_time = false) const;  ///< its name
-  /// When a plan is good enough.
-  Termination Enough() const;
+  /// When a plan is good enough; `in_time`: in time, where `best` takes four times the work.
+  Termination Enough(bool in_time) const;
 };
 
 /// The group `swept_volumes`.

@@ -62,7 +62,7 @@ PlanResult Replanner::Search(const std::array<Foothold, 2>& stance,
     const std::int64_t proofs = by_volumes ? 0 : progress.queries;
     return progress.nodes + proofs >= max_nodes ? StopReason::kBudget : StopReason::kGoOn;
   };
-  request.stop = AnyOf({used_up, options.Enough()});
+  request.stop = AnyOf({used_up, options.Enough(false)});
   return options.known.Make(options.name, among.world.scene, options.options)
       ->Plan(request, random);
 }

@@ -40,13 +40,13 @@ FootstepConfig ToConfig(const Footstep& footstep, const Place& place) {
   return config;
 }
 
-Termination StopOf(const PlannerConfig& config, const PlanningHooks& hooks) {
+Termination StopOf(const PlannerConfig& config, bool in_time, const PlanningHooks& hooks) {
   std::vector<Termination> all = {OnRequest(hooks.stop), AfterNodes(config.max_nodes),
                                   AfterEffort(config.effort)};
   if (config.deadline > 0.0) {
     all.push_back(AtTime(SteadySeconds, SteadySeconds() + config.deadline));
   }
-  all.push_back(config.Enough());
+  all.push_back(config.Enough(in_time));
   return AnyOf(std::move(all));
 }
 
@@ -127,7 +127,7 @@ void SearchFootsteps(const FootstepSearch& search, const Place& place, const Pla
   };
   request.max_refusals = config.planner.max_refusals;
   request.clock = SteadySeconds;
-  request.stop = StopOf(config.planner, hooks);
+  request.stop = StopOf(config.planner, search.times != nullptr, hooks);
   request.proofs = [&search] {
     return (search.effort ? search.effort() : 0.0) +
            (search.times != nullptr ? search.times->effort() : 0.0);
