@@ -92,6 +92,8 @@ OwnNames FindOwnNames(const std::string& path, const std::string& text, const To
   const KnownNames known = NamesOfConfigs(tools);
   FindMethods(root, known.methods, &own);
   FindOwnOptions(root, known.own_options, &own);
+  const YamlNode* robot = At(root, {"robot"});
+  if (robot != nullptr && robot->kind == Kind::kScalar) own.robot = robot->text;
   const YamlNode* planner = At(root, {"planner", "name"});
   if (planner != nullptr && planner->kind == Kind::kScalar && !Has(known.planners, planner->text)) {
     own.told.push_back("the planner " + planner->text);

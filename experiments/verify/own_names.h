@@ -12,6 +12,7 @@ namespace halfstep::verify {
 /// and this one does not know. They say how a walk was found, or what was proved besides; what a
 /// walk is does not depend on them.
 struct OwnNames {
+  std::string robot = {};               ///< that the config names; not one of those
   std::vector<std::string> told;        ///< each with what it is: "the method mine/descent"
   std::vector<YamlOverride> overrides;  ///< with these the config can be read here
   /// Those of the config, known or not; none: all are known.

@@ -48,6 +48,16 @@ void CheckHash(const char* what, const std::string& bytes, const std::string& st
                      ": not the one that the certificate is about (SHA-256 differs)");
 }
 
+// Says so where config.yaml names another file than that of the certificate. A shipped robot, which
+// is named by a word, may be another one in another copy of halfstep.
+void CheckPassed(const std::string& what, const std::string& passed, const std::string& named,
+                 Findings* findings) {
+  const fs::path name(named);
+  if (passed.empty() || (!name.has_parent_path() && !name.has_extension())) return;
+  findings->Disagree("config.yaml names the " + what + " " + Quote(named) +
+                     ", which is not the one that the certificate is about");
+}
+
 // The config of a run, read as `halfstep run` reads it: unknown keys are refused. Names that the
 // run's program registered are told, since only that one knows what they do. Defaults go by the
 // robot's size; where the config's robot is not to be had, the certificate's place of it serves.
@@ -73,6 +83,11 @@ ExperimentConfig ReadConfig(const VerifyOptions& options, const std::string& pat
       throw InputError(complaints);
     overrides.push_back(NamedInstead("robot", robot.places.front().string()));
     config = ParseConfig(path, text, overrides, options.tools);
+    // What it names in the run's folder has to be there.
+    const fs::path named = fs::path(own.robot).lexically_normal();
+    if (named.is_relative() && named.has_parent_path() && *named.begin() != "..") {
+      CheckPassed("robot", robot.places.front().string(), own.robot, findings);
+    }
   }
   if (own.methods) config.smoothing.methods = *own.methods;
   if (!NamesOfConfigs(options.tools).has_own_margins) {
@@ -152,16 +167,6 @@ struct Inputs {
   RobotModel robot;
   Scene scene;
 };
-
-// Says so where config.yaml names another file than that of the certificate. A shipped robot, which
-// is named by a word, may be another one in another copy of halfstep.
-void CheckPassed(const std::string& what, const std::string& passed, const std::string& named,
-                 Findings* findings) {
-  const fs::path name(named);
-  if (passed.empty() || (!name.has_parent_path() && !name.has_extension())) return;
-  findings->Disagree("config.yaml names the " + what + " " + Quote(named) +
-                     ", which is not the one that the certificate is about");
-}
 
 Inputs InputsOf(const VerifyOptions& options, const ExperimentConfig& config,
                 const RunManifest& manifest, const CertificateText& certificate,
