@@ -34,7 +34,8 @@ Found<Input> Find(const InputSearch& search, const std::function<Input(const std
   for (const fs::path& place : search.places) {
     // The folder has what its own config names there.
     const bool missing = !IsThere(place);
-    if (missing && &place == &search.places.front() && LiesIn(place, search.run)) {
+    const bool first = &place == &search.places.front() && !place.empty();
+    if (missing && first && LiesIn(place, search.run)) {
       passed = place.lexically_normal().string();
     }
     if (missing || std::ranges::find(seen, Real(place)) != seen.end()) continue;
