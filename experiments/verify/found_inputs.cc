@@ -32,13 +32,7 @@ Found<Input> Find(const InputSearch& search, const std::function<Input(const std
   std::vector<fs::path> seen;
   std::string passed;
   for (const fs::path& place : search.places) {
-    // The folder has what its own config names there.
-    const bool missing = !IsThere(place);
-    const bool first = &place == &search.places.front() && !place.empty();
-    if (missing && first && LiesIn(place, search.run)) {
-      passed = place.lexically_normal().string();
-    }
-    if (missing || std::ranges::find(seen, Real(place)) != seen.end()) continue;
+    if (!IsThere(place) || std::ranges::find(seen, Real(place)) != seen.end()) continue;
     seen.push_back(Real(place));
     const bool of_run = LiesIn(place, search.run);
     try {

@@ -18,8 +18,7 @@ struct InputSearch {
   std::string sha256;                         ///< of all of them, by manifest.json
 };
 
-/// A robot or a scene, and the first place where another one lay, or none where the first place is
-/// in the folder ("": there is no such place).
+/// A robot or a scene, and the first place where another one lay ("": none did).
 template <typename Input>
 struct Found {
   Input input;         ///< as it was read
