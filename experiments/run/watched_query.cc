@@ -1,13 +1,14 @@
 #include "experiments/run/watched_query.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace halfstep {
 namespace {
 
-bool IsEver(const TimeIntervals& times) {
-  return times.size() == 1 && times[0].begin <= 0.0 && std::isinf(times[0].end);
+bool HaveAllOf(const TimeInterval& within, const TimeIntervals& times) {
+  return std::ranges::any_of(times, [&](const TimeInterval& one) {
+    return one.begin <= within.begin && within.end <= one.end;
+  });
 }
 
 }  // namespace
@@ -38,16 +39,16 @@ bool WatchedQuery::Note(bool free, bool up, int i, Side support, const Foothold&
 }
 
 TimeIntervals WatchedTimes::DownStarts(int i, Side support, const Foothold& X_WS,
-                                       const Foothold& X_WF) const {
-  TimeIntervals times = times_.DownStarts(i, support, X_WS, X_WF);
-  if (!IsEver(times)) refused_.Add(i, false, support, X_WS);
+                                       const Foothold& X_WF, const TimeInterval& within) const {
+  TimeIntervals times = times_.DownStarts(i, support, X_WS, X_WF, within);
+  if (!HaveAllOf(within, times)) refused_.Add(i, false, support, X_WS);
   return times;
 }
 
 TimeIntervals WatchedTimes::UpStarts(int i, Side support, const Foothold& X_WS,
-                                     const Foothold& X_WF) const {
-  TimeIntervals times = times_.UpStarts(i, support, X_WS, X_WF);
-  if (!IsEver(times)) refused_.Add(i, true, support, X_WS);
+                                     const Foothold& X_WF, const TimeInterval& within) const {
+  TimeIntervals times = times_.UpStarts(i, support, X_WS, X_WF, within);
+  if (!HaveAllOf(within, times)) refused_.Add(i, true, support, X_WS);
   return times;
 }
 

@@ -71,21 +71,22 @@ class WatchedTimes : public HalfStepTimes {
   WatchedTimes(const HalfStepTimes& times, const GoalRegion& goal)
       : times_(times), refused_(goal) {}
 
-  TimeIntervals DownStarts(int i, Side support, const Foothold& X_WS,
-                           const Foothold& X_WF) const override;
-  TimeIntervals UpStarts(int i, Side support, const Foothold& X_WS,
-                         const Foothold& X_WF) const override;
-  TimeIntervals OnBothFeet(int i, Side support, const Foothold& X_WS,
-                           const Foothold& X_WF) const override {
-    return times_.OnBothFeet(i, support, X_WS, X_WF);
+  TimeIntervals DownStarts(int i, Side support, const Foothold& X_WS, const Foothold& X_WF,
+                           const TimeInterval& within) const override;
+  TimeIntervals UpStarts(int i, Side support, const Foothold& X_WS, const Foothold& X_WF,
+                         const TimeInterval& within) const override;
+  TimeIntervals OnBothFeet(int i, Side support, const Foothold& X_WS, const Foothold& X_WF,
+                           const TimeInterval& within) const override {
+    return times_.OnBothFeet(i, support, X_WS, X_WF, within);
   }
-  TimeIntervals OnOneFoot(Side support, const Foothold& X_WS) const override {
-    return times_.OnOneFoot(support, X_WS);
+  TimeIntervals OnOneFoot(Side support, const Foothold& X_WS,
+                          const TimeInterval& within) const override {
+    return times_.OnOneFoot(support, X_WS, within);
   }
   double settled() const override { return times_.settled(); }
   double effort() const override { return times_.effort(); }
 
-  /// Half-steps that are not free at some time.
+  /// Half-steps that are not free at some time that was asked about.
   const NearestRefused& refused() const { return refused_; }
 
  private:

@@ -18,6 +18,11 @@ struct TimeInterval {
 /// In the order of time; no two have a time in common.
 using TimeIntervals = std::vector<TimeInterval>;
 
+/// The times that two intervals have in common; none: begin > end.
+inline TimeInterval Common(const TimeInterval& a, const TimeInterval& b) {
+  return {a.begin > b.begin ? a.begin : b.begin, a.end < b.end ? a.end : b.end};
+}
+
 /// The interval that contains t [s]; null: none does.
 inline const TimeInterval* IntervalAt(const TimeIntervals& intervals, double t) {
   for (const TimeInterval& interval : intervals) {
@@ -28,7 +33,9 @@ inline const TimeInterval* IntervalAt(const TimeIntervals& intervals, double t) 
 
 /// Answers when a half-step of a StepSet, placed in the world, is free of all that moves there, and
 /// when the robot may rest before and after it. Each interval is proved for all of its times;
-/// times in doubt are in none. What rests is asked of a HalfStepQuery. Const and thread-safe.
+/// times in doubt are in none. All that have times in common with `within` are told, and none of
+/// the others has to be: an interval may end where nothing was asked any more. What rests is asked
+/// of a HalfStepQuery. Const and thread-safe.
 /// Source: planner/README.md, "Planning in time"; safe intervals after [Phillips2011].
 class HalfStepTimes {
  public:
@@ -36,16 +43,17 @@ class HalfStepTimes {
 
   /// When the down half-step of element i on `support`, whose sole stands at X_WS, may begin; it
   /// lands at X_WF.
-  virtual TimeIntervals DownStarts(int i, Side support, const Foothold& X_WS,
-                                   const Foothold& X_WF) const = 0;
+  virtual TimeIntervals DownStarts(int i, Side support, const Foothold& X_WS, const Foothold& X_WF,
+                                   const TimeInterval& within) const = 0;
   /// When the up half-step that follows it may begin.
-  virtual TimeIntervals UpStarts(int i, Side support, const Foothold& X_WS,
-                                 const Foothold& X_WF) const = 0;
+  virtual TimeIntervals UpStarts(int i, Side support, const Foothold& X_WS, const Foothold& X_WF,
+                                 const TimeInterval& within) const = 0;
   /// When the robot may rest between the two, on both feet.
-  virtual TimeIntervals OnBothFeet(int i, Side support, const Foothold& X_WS,
-                                   const Foothold& X_WF) const = 0;
+  virtual TimeIntervals OnBothFeet(int i, Side support, const Foothold& X_WS, const Foothold& X_WF,
+                                   const TimeInterval& within) const = 0;
   /// When it may rest on the foot `support`, which stands at X_WS, with the other at its via point.
-  virtual TimeIntervals OnOneFoot(Side support, const Foothold& X_WS) const = 0;
+  virtual TimeIntervals OnOneFoot(Side support, const Foothold& X_WS,
+                                  const TimeInterval& within) const = 0;
   /// From then on nothing that it knows moves [s], or it knows of no time that is later.
   virtual double settled() const = 0;
   /// Work of the answers so far, in the unit of PlanProgress::effort.

@@ -200,7 +200,11 @@ std::vector<Footstep> FootstepsOf(const PlanRequest& request, const StepGraph& g
                                   const StepPlan& plan) {
   std::vector<Footstep> footsteps;
   StepState state = plan.start;
-  const auto rests = RestsOf(plan.timed, request.set.prototype.duration);
+  std::vector<std::array<double, 2>> rests;
+  if (request.times != nullptr) {
+    const double T = request.set.prototype.duration;
+    rests = RestsOf(WithLatestUps(*request.times, graph, state, plan.ks, plan.timed, T), T);
+  }
   for (int k : plan.ks) {
     const HalfStep like = request.set.PrototypeOf(state.form);
     state = graph.After(state, k);

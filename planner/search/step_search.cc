@@ -188,7 +188,7 @@ class StepSearch::Weighted {
       return edge && Keep(asked, {k, *edge, CostOf(*edge, least, true), true});
     }
     if (IsReached(after, TimeInterval{}.end, least)) return false;
-    for (const TimedEdge& edge : Take(from, k)) {
+    for (const TimedEdge& edge : Take(from, k, after)) {
       if (Keep(asked, {k, edge, CostOf(edge, least, false), false})) return true;
     }
     return false;
@@ -199,11 +199,14 @@ class StepSearch::Weighted {
     if (!graph_.DownIsFree(from.state, k)) return std::nullopt;
     return TimedEdge{};
   }
-  std::vector<TimedEdge> Take(const TimedState& from, int k) {
-    if (edges_ != nullptr) return edges_->Take(from, k);
+  std::vector<TimedEdge> Take(const TimedState& from, int k, const StepState& after) {
+    if (edges_ != nullptr) {
+      const double to_go = graph_.reach().least_cost() * to_go_(after).bound;
+      return edges_->Take(from, k, edges_->TimeOf(monitor_.best_cost() - to_go));
+    }
     if (!graph_.DownIsFree(from.state, k) || !graph_.UpIsFree(from.state, k)) return {};
     TimedEdge edge;
-    edge.to.state = graph_.After(from.state, k);
+    edge.to.state = after;
     return {edge};
   }
   double CostOf(const TimedEdge& edge, double least, bool lands) const {

@@ -110,7 +110,9 @@ StepTree::Edge StepTree::TryInTime(int index, int k, const Foothold& X_WF) {
                 reached_.contains(cells_.KeyOf(after)))) {
     return Edge::kUseless;
   }
-  const std::vector<TimedEdge> edges = edges_->Take(from, k);
+  const double to_go = hits ? 0.0 : LeastCostFrom(after);
+  const std::vector<TimedEdge> edges =
+      edges_->Take(from, k, edges_->TimeOf(target_.cost_limit - to_go));
   Edge grown = edges.empty() ? Edge::kBlocked : Edge::kUseless;
   for (const TimedEdge& edge : edges) {
     const double cost = edges_->CostOf(edge.to);

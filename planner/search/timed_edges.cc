@@ -1,70 +1,107 @@
 #include "planner/search/timed_edges.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
 
-// The times that two intervals have in common; none: begin > end.
-TimeInterval Common(const TimeInterval& a, const TimeInterval& b) {
-  return {std::max(a.begin, b.begin), std::min(a.end, b.end)};
-}
 bool IsEmpty(const TimeInterval& interval) { return interval.begin > interval.end; }
 TimeInterval Later(const TimeInterval& interval, double by) {
   return {interval.begin + by, interval.end + by};
 }
 
+// What is asked about at once [s]: answers cost work, and the first one mostly ends the search.
+constexpr double kAtOnce = 1.0;
+
+// The end of what is asked about from `begin` on.
+double UntilFrom(double begin, double end, double settled) {
+  return begin >= settled || begin + kAtOnce >= end ? end : begin + kAtOnce;
+}
+
+// The earliest of the times within `within` that `ask` tells.
+template <class Ask>
+std::optional<double> First(const Ask& ask, const TimeInterval& within) {
+  if (IsEmpty(within)) return std::nullopt;
+  for (const TimeInterval& found : ask(within)) {
+    const TimeInterval common = Common(found, within);
+    if (!IsEmpty(common)) return common.begin;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<TimedState> TimedEdges::Start(const StepState& state) const {
-  const TimeIntervals rests = times_.OnOneFoot(state.support, state.X_WS);
+  const TimeIntervals rests = times_.OnOneFoot(state.support, state.X_WS, {.begin = T_});
   const TimeInterval* rest = IntervalAt(rests, T_);
   if (rest == nullptr || rest->end < begin_) return std::nullopt;
   return TimedState{.state = state, .since = begin_, .rest = *rest};
 }
 
-std::vector<TimedEdge> TimedEdges::Take(const TimedState& from, int k) {
+std::vector<TimedEdge> TimedEdges::Take(const TimedState& from, int k, double latest) {
   std::vector<TimedEdge> edges;
   const StepState &at = from.state, to = graph_.After(at, k);
   if (!graph_.DownIsFree(at, k) || !graph_.UpIsFree(at, k)) return edges;
-  const int i = Nth(graph_.elements(), k);
-  const TimeIntervals rests = times_.OnOneFoot(to.support, to.X_WS);
-  if (rests.empty()) return edges;
-  const TimeIntervals downs = times_.DownStarts(i, at.support, at.X_WS, to.X_WS);
-  const TimeInterval here{from.since, from.rest.end};
-  if (std::ranges::none_of(
-          downs, [&](const TimeInterval& down) { return !IsEmpty(Common(down, here)); })) {
-    return edges;
-  }
-  const TimeIntervals ups = times_.UpStarts(i, at.support, at.X_WS, to.X_WS);
-  if (ups.empty()) return edges;
-  const TimeIntervals stands = times_.OnBothFeet(i, at.support, at.X_WS, to.X_WS);
-  for (const TimeInterval& rest : rests) {
-    std::optional<TimedEdge> best;
-    for (const TimeInterval& down : downs) {
-      const TimeInterval starts = Common(down, here);
-      if (IsEmpty(starts)) continue;
-      for (const TimeInterval& stand : stands) {
-        const TimeInterval lands = Common(Later(starts, T_), stand);
-        if (IsEmpty(lands)) continue;
-        for (const TimeInterval& up : ups) {
-          TimeInterval lifts = Common(Common(up, {lands.begin, stand.end}), Later(rest, -T_));
-          if (IsEmpty(lifts)) continue;
-          const double since = lifts.begin + T_;
-          if (best && since >= best->to.since) continue;
-          // Rounding of t − T + T must not leave the interval.
-          best = TimedEdge{.to = {to, std::clamp(since, rest.begin, rest.end), rest},
-                           .rest_on_one_foot = RestOnOneFoot(from, lands.begin - T_),
-                           .rest_on_both_feet = lifts.begin - lands.begin,
-                           .latest_up = lifts.end};
-        }
-      }
-    }
-    if (best) edges.push_back(*best);
+  for (const TimeInterval& rest :
+       times_.OnOneFoot(to.support, to.X_WS, {.begin = from.since + 2.0 * T_})) {
+    const TimeInterval lifts = Later(Common(rest, {.begin = 0.0, .end = latest}), -T_);
+    const auto taken = FirstLift(from, k, lifts);
+    if (!taken) continue;
+    // Rounding of t − T + T must not leave the interval.
+    edges.push_back({.to = {to, std::clamp(taken->lifts + T_, rest.begin, rest.end), rest},
+                     .rest_on_one_foot = RestOnOneFoot(from, taken->lands - T_),
+                     .rest_on_both_feet = taken->lifts - taken->lands,
+                     .latest_up = taken->lifts});
   }
   return edges;
+}
+
+std::optional<TimedEdges::Taken> TimedEdges::FirstLift(const TimedState& from, int k,
+                                                       const TimeInterval& lifts) {
+  const StepState& at = from.state;
+  const int i = Nth(graph_.elements(), k);
+  const Foothold X_WF = graph_.Landing(at, k);
+  const auto stands_within = [&](const TimeInterval& within) {
+    return times_.OnBothFeet(i, at.support, at.X_WS, X_WF, within);
+  };
+  const auto downs = [&](const TimeInterval& within) {
+    return times_.DownStarts(i, at.support, at.X_WS, X_WF, within);
+  };
+  const auto ups = [&](const TimeInterval& within) {
+    return times_.UpStarts(i, at.support, at.X_WS, X_WF, within);
+  };
+  const TimeInterval lands = Common({from.since + T_, from.rest.end + T_}, {0.0, lifts.end});
+  for (double begin = lands.begin; begin <= lands.end;) {
+    const TimeInterval now{begin, UntilFrom(begin, lands.end, times_.settled())};
+    std::optional<double> landed;
+    for (const TimeInterval& stand : stands_within(now)) {
+      const TimeInterval within = Common(stand, now);
+      if (IsEmpty(within)) continue;
+      const auto down = First(downs, Later(within, -T_));
+      if (down) landed = std::clamp(*down + T_, within.begin, within.end);
+      if (down) break;
+    }
+    if (!landed && now.end == lands.end) break;
+    begin = now.end;
+    if (!landed) continue;
+    // For as long as it may stand there: to land later in that time does not lift it earlier.
+    double stood = *landed;
+    for (bool stands_on = true; stands_on;) {
+      const double until = UntilFrom(stood, lifts.end, times_.settled());
+      const TimeIntervals stands = stands_within({stood, until});
+      const TimeInterval* stand = IntervalAt(stands, stood);
+      const double end = stand == nullptr ? stood : std::min(stand->end, until);
+      if (const auto lift = First(ups, Common({stood, end}, lifts))) return Taken{*landed, *lift};
+      if (end == lifts.end) return std::nullopt;
+      stands_on = end == until;
+      stood = end;
+    }
+    begin = std::nextafter(stood, lifts.end);
+  }
+  return std::nullopt;
 }
 
 std::optional<TimedEdge> TimedEdges::Land(const TimedState& from, int k) {
@@ -72,19 +109,52 @@ std::optional<TimedEdge> TimedEdges::Land(const TimedState& from, int k) {
   if (!graph_.DownIsFree(at, k)) return std::nullopt;
   const int i = Nth(graph_.elements(), k);
   const Foothold X_WF = graph_.Landing(at, k);
-  const TimeIntervals stands = times_.OnBothFeet(i, at.support, at.X_WS, X_WF);
-  if (stands.empty() || stands.back().end < times_.settled()) return std::nullopt;
-  for (const TimeInterval& down : times_.DownStarts(i, at.support, at.X_WS, X_WF)) {
-    const TimeInterval starts = Common(down, {from.since, from.rest.end});
-    const TimeInterval lands = Common(Later(starts, T_), stands.back());
-    if (IsEmpty(starts) || IsEmpty(lands)) continue;
-    TimedEdge edge;
-    edge.to.state = {X_WF, Opposite(at.support)};
-    edge.to.since = lands.begin;
-    edge.rest_on_one_foot = RestOnOneFoot(from, lands.begin - T_);
-    return edge;
+  const double settled = times_.settled();
+  const TimeInterval lands{from.since + T_, from.rest.end + T_};
+  const TimeIntervals stands =
+      times_.OnBothFeet(i, at.support, at.X_WS, X_WF, {.begin = lands.begin});
+  if (stands.empty() || stands.back().end < settled) return std::nullopt;
+  const auto downs = [&](const TimeInterval& within) {
+    return times_.DownStarts(i, at.support, at.X_WS, X_WF, within);
+  };
+  const TimeInterval within = Later(Common(stands.back(), lands), -T_);
+  std::optional<double> down;
+  for (double begin = within.begin; !down && begin <= within.end;) {
+    const double until = UntilFrom(begin, within.end, settled);
+    down = First(downs, {begin, until});
+    if (until == within.end) break;
+    begin = until;
   }
-  return std::nullopt;
+  if (!down) return std::nullopt;
+  TimedEdge edge;
+  edge.to.state = {X_WF, Opposite(at.support)};
+  edge.to.since = *down + T_;
+  edge.rest_on_one_foot = RestOnOneFoot(from, *down);
+  return edge;
+}
+
+std::vector<TimedEdge> WithLatestUps(const HalfStepTimes& times, const StepGraph& graph,
+                                     StepState at, const std::vector<int>& ks,
+                                     std::vector<TimedEdge> edges, double T) {
+  for (size_t j = 0; j + 1 < edges.size(); ++j) {
+    const int k = ks[j], i = Nth(graph.elements(), k);
+    const StepState to = graph.After(at, k);
+    TimedEdge& edge = edges[j];
+    const TimeInterval wanted{
+        edge.latest_up,
+        std::min(edge.latest_up + edges[j + 1].rest_on_one_foot, edge.to.rest.end - T)};
+    if (wanted.begin < wanted.end) {
+      const TimeIntervals ups = times.UpStarts(i, at.support, at.X_WS, to.X_WS, wanted);
+      const TimeIntervals stands = times.OnBothFeet(i, at.support, at.X_WS, to.X_WS, wanted);
+      const TimeInterval* up = IntervalAt(ups, wanted.begin);
+      const TimeInterval* stand = IntervalAt(stands, wanted.begin);
+      if (up != nullptr && stand != nullptr) {
+        edge.latest_up = std::min({wanted.end, up->end, stand->end});
+      }
+    }
+    at = to;
+  }
+  return edges;
 }
 
 std::vector<std::array<double, 2>> RestsOf(const std::vector<TimedEdge>& edges, double T) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -21,7 +22,7 @@ struct TimedEdge {
   TimedState to;                   ///< where it leads; at the goal only `state` and `since` are set
   double rest_on_one_foot = 0.0;   ///< before its down half-step [s]
   double rest_on_both_feet = 0.0;  ///< before its up half-step [s]
-  double latest_up = 0.0;          ///< its up half-step could begin up to this time as well [s]
+  double latest_up = 0.0;          ///< when its up half-step begins, or could begin as well [s]
 };
 
 /// The edges of a StepGraph in time: raw half-steps of equal duration T, and rests between them,
@@ -37,8 +38,10 @@ class TimedEdges {
   /// until then.
   std::optional<TimedState> Start(const StepState& state) const;
   /// Element k from a state: for each safe interval of resting that it leads to, the earliest
-  /// arrival there. Empty: it is not free, at any time that would help.
-  std::vector<TimedEdge> Take(const TimedState& from, int k);
+  /// arrival there, if that is not after `latest` [s]. Empty: it is not free, at any time that
+  /// would help.
+  std::vector<TimedEdge> Take(const TimedState& from, int k,
+                              double latest = std::numeric_limits<double>::infinity());
   /// The earliest landing of element k, after which the robot rests on both feet for good.
   std::optional<TimedEdge> Land(const TimedState& from, int k);
 
@@ -46,10 +49,18 @@ class TimedEdges {
   double cost_rate() const { return graph_.reach().least_cost() / (2.0 * T_); }
   /// Of getting to a state [of PlanRequest::cost].
   double CostOf(const TimedState& state) const { return (state.since - T_) * cost_rate(); }
+  /// When a state of such a cost is reached [s].
+  double TimeOf(double cost) const { return cost / cost_rate() + T_; }
   /// Of a walk that ends with this landing.
   double CostOfLanding(const TimedEdge& edge) const { return edge.to.since * cost_rate(); }
 
  private:
+  // When an element's foot lands, and the other one lifts [s].
+  struct Taken {
+    double lands, lifts;
+  };
+  // The earliest of `lifts`.
+  std::optional<Taken> FirstLift(const TimedState& from, int k, const TimeInterval& lifts);
   // How long it rests on one foot when its down half-step begins at t [s].
   double RestOnOneFoot(const TimedState& from, double t) const {
     return t - (from.since == begin_ ? T_ : from.since);  // the start alone is as early
@@ -60,6 +71,12 @@ class TimedEdges {
   StepGraph& graph_;
   double begin_;
 };
+
+/// The edges of a chain, element ks[j] taken by edges[j] from `at` on; where the next one rests on
+/// one foot, it is asked how much later the up half-step before may begin. `T` as in TimedEdges.
+std::vector<TimedEdge> WithLatestUps(const HalfStepTimes& times, const StepGraph& graph,
+                                     StepState at, const std::vector<int>& ks,
+                                     std::vector<TimedEdge> edges, double T);
 
 /// The rests before the half-steps of a chain of edges, from a start on: of each footstep those on
 /// both feet and on one foot [s], as Footstep has them. A rest on one foot becomes one on both feet

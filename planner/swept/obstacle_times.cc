@@ -3,22 +3,19 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "wpg/check.h"
-#include "wpg/motion/posture.h"
-#include "wpg/nth.h"
 
 namespace halfstep {
 namespace {
 
 constexpr double kShortestStarts = 1.0 / 16;  // [s] start times are not cut below this
+constexpr double kShort = 1.0;                // [s] not below that where little speaks for it
 constexpr size_t kFewBodies = 2;              // of which no cylinder is asked
 constexpr int kFinestPiece = 32;              // the first of those that are not cut
 constexpr int kFinestUnbounded = 1 << 14;     // the same where the motion has no bound yet
 constexpr double kClearanceRounding = 1e-9;   // [m]
-constexpr double kEnclosureRounding = 1e-9;   // of the cylinder around bodies [m]
 // Of pieces that are made and of bodies that are looked at, as PlanProgress::effort [µs].
 constexpr double kPieceCost = 15.0, kCheckCost = 0.3;
 
@@ -118,30 +115,31 @@ ObstacleTimes::ObstacleTimes(const RobotModel& robot, std::shared_ptr<const Moti
 }
 
 TimeIntervals ObstacleTimes::DownStarts(int i, Side support, const Foothold& X_WS,
-                                        const Foothold& X_WF) const {
+                                        const Foothold& X_WF, const TimeInterval& within) const {
   if (always_ != nullptr && always_->DownIsFree(i, support, X_WS)) return {{}};
-  return Answer(What::kDown, i, support, X_WS, X_WF.height - X_WS.height);
+  return Answer(What::kDown, i, support, X_WS, X_WF.height - X_WS.height, within);
 }
 
 TimeIntervals ObstacleTimes::UpStarts(int i, Side support, const Foothold& X_WS,
-                                      const Foothold& X_WF) const {
+                                      const Foothold& X_WF, const TimeInterval& within) const {
   if (always_ != nullptr && always_->UpIsFree(i, support, X_WS)) return {{}};
   // Seen from the foot that has landed.
-  return Answer(What::kUp, i, Opposite(support), X_WF, X_WS.height - X_WF.height);
+  return Answer(What::kUp, i, Opposite(support), X_WF, X_WS.height - X_WF.height, within);
 }
 
 TimeIntervals ObstacleTimes::OnBothFeet(int i, Side support, const Foothold& X_WS,
-                                        const Foothold& X_WF) const {
+                                        const Foothold& X_WF, const TimeInterval& within) const {
   // That posture is part of either half-step.
   if (always_ != nullptr &&
       (always_->DownIsFree(i, support, X_WS) || always_->UpIsFree(i, support, X_WS))) {
     return {{}};
   }
-  return Answer(What::kBothFeet, i, support, X_WS, X_WF.height - X_WS.height);
+  return Answer(What::kBothFeet, i, support, X_WS, X_WF.height - X_WS.height, within);
 }
 
-TimeIntervals ObstacleTimes::OnOneFoot(Side support, const Foothold& X_WS) const {
-  return Answer(What::kOneFoot, 0, support, X_WS, 0.0);
+TimeIntervals ObstacleTimes::OnOneFoot(Side support, const Foothold& X_WS,
+                                       const TimeInterval& within) const {
+  return Answer(What::kOneFoot, 0, support, X_WS, 0.0, within);
 }
 
 double ObstacleTimes::effort() const {
@@ -151,7 +149,7 @@ double ObstacleTimes::effort() const {
 }
 
 TimeIntervals ObstacleTimes::Answer(What what, int i, Side support, const Foothold& X_WS,
-                                    double rise) const {
+                                    double rise, const TimeInterval& within) const {
   const Question question = {static_cast<double>(what),
                              static_cast<double>(i),
                              static_cast<double>(Index(support)),
@@ -162,161 +160,163 @@ TimeIntervals ObstacleTimes::Answer(What what, int i, Side support, const Footho
                              X_WS.yaw};
   const std::lock_guard lock(mutex_);
   const auto [answer, is_new] = known_.try_emplace(question);
-  if (!is_new) return answer->second;
-  TimeIntervals& free = answer->second;
-  Cover& cover = CoverOf(what, i, support, rise);
-  cover.refused = 0;  // so that an answer does not depend on those before
-  const Eigen::Isometry3d pose = ToIsometry(X_WS);
-  double begin = 0.0;
-  for (const TimeInterval& still : still_) {
-    const double lasts = cover.to - cover.from, end = still.end - lasts;
-    if (end <= still.begin) continue;
-    if (begin < still.begin) Collect(cover, pose, begin, still.begin, &free);
-    // One question for all of it.
-    if (IsFree(cover, {.X_WS = pose, .mid = still.begin, .settled = true})) {
-      AddInterval(still.begin, end, &free);
-    }
-    begin = end;
+  Known& known = answer->second;
+  if (is_new) {
+    known.pieces = &PiecesOf(what, i, support, rise);
+    known.X_WS = ToIsometry(X_WS);
+    known.parts = PartsOf(known.pieces->lasts());
+    known.some.resize(known.parts.size(), {.clear = std::vector<bool>(shapes_.size())});
   }
-  if (begin < settled_) Collect(cover, pose, begin, settled_, &free);
-  if (settles_ && IsFree(cover, {.X_WS = pose, .mid = settled_, .settled = true})) {
-    AddInterval(settled_, std::numeric_limits<double>::infinity(), &free);
+  TimeIntervals free;
+  for (size_t part = 0; part < known.parts.size(); ++part) {
+    Collect(known.parts[part], part, within, &known, &free);
   }
   return free;
 }
 
-ObstacleTimes::Cover& ObstacleTimes::CoverOf(What what, int i, Side support, double rise) const {
-  const CoverKey key = {static_cast<double>(what), static_cast<double>(i),
-                        static_cast<double>(Index(support)), rise};
-  const auto known = covers_.find(key);
-  if (known != covers_.end()) return known->second;
+std::vector<ObstacleTimes::Part> ObstacleTimes::PartsOf(double lasts) const {
+  std::vector<Part> parts;
+  double begin = 0.0;
+  for (const TimeInterval& still : still_) {
+    const double end = still.end - lasts;
+    if (end <= still.begin) continue;
+    if (begin < still.begin) parts.push_back({begin, still.begin});
+    parts.push_back({still.begin, end, true});
+    begin = end;
+  }
+  if (begin < settled_) parts.push_back({begin, settled_});
+  if (settles_) parts.push_back({settled_, std::numeric_limits<double>::infinity(), true});
+  return parts;
+}
+
+HalfStepPieces& ObstacleTimes::PiecesOf(What what, int i, Side support, double rise) const {
+  const PiecesKey key = {static_cast<double>(what), static_cast<double>(i),
+                         static_cast<double>(Index(support)), rise};
+  const auto known = pieces_.find(key);
+  if (known != pieces_.end()) return known->second;
   // `support` carries the half-step that is meant.
   HalfStep half_step = what == What::kUp ? set_.Up(i, Opposite(support)) : set_.Down(i, support);
   half_step.X_SF.height = rise;
   const double T = half_step.duration;
   const double from = what == What::kBothFeet ? T : 0.0;
   const double to = what == What::kOneFoot ? 0.0 : T;
-  return covers_.try_emplace(key, Cover{HalfStepTracks(half_step, *model_), from, to})
+  return pieces_
+      .try_emplace(key, robot_, bounds_, shapes_, HalfStepTracks(half_step, *model_), from, to)
       .first->second;
 }
 
-const ObstacleTimes::Piece& ObstacleTimes::PieceOf(Cover& cover, int n) const {
-  const auto [at, is_new] = cover.pieces.try_emplace(n);
-  Piece& piece = at->second;
-  if (!is_new) return piece;
-  ++made_;
-  int count = 1;  // of the pieces that are as long
-  while (2 * count <= n) count *= 2;
-  const double width = (cover.to - cover.from) / count;
-  const double from = cover.from + width * (n - count);
-  piece.mid = from + 0.5 * width;
-  piece.half = 0.5 * width * (1.0 + 1e-9);  // for the rounding of its ends
-  if (width == 0.0) {
-    const Posture posture = SolvePosture(robot_, cover.tracks.At(piece.mid).value);
-    piece.bounded = posture.reachable;
-    for (const RobotBody& body : robot_.bodies) piece.X_SBody.push_back(posture.OfBody(body));
-    piece.displacement.assign(robot_.bodies.size(), 0.0);
-    Enclose(&piece);
-    return piece;
+void ObstacleTimes::Collect(const Part& part, size_t index, const TimeInterval& within,
+                            Known* known, TimeIntervals* free) const {
+  const TimeInterval asked = Common({part.begin, part.end}, within);
+  if (asked.begin > asked.end) return;
+  const double mid = 0.5 * (part.begin + part.end);
+  if (known->some[index].is == Some::kNotAsked) {
+    Some some = known->some[index];
+    const Starts starts = {.X_WS = known->X_WS,
+                           .mid = part.still ? part.begin : mid,
+                           .half = part.still ? 0.0 : std::max(mid - part.begin, part.end - mid),
+                           .settled = part.still};
+    if (IsFree(*known->pieces, starts, &some)) {
+      some.is = Some::kFree;
+    } else if (part.still || part.end - part.begin <= kShortestStarts ||
+               IsHopeless(*known, part, some.refusal)) {
+      some.is = Some::kNotFree;
+    } else {
+      some.is = Some::kCut;
+      some.halves = static_cast<int>(known->some.size());
+      known->some.resize(known->some.size() + 2, {.refusal = some.refusal, .clear = some.clear});
+    }
+    known->some[index] = some;
   }
-  WalkState second = WalkState::Zero();
-  cover.tracks.AddSecondBounds(from, from + width, &second);
-  IntervalMotion motion;
-  bounds_.Bound(cover.tracks.At(piece.mid), second, piece.half, &motion);
-  piece.bounded = motion.bounded;
-  if (!piece.bounded) return piece;
-  for (const RobotBody& body : robot_.bodies) {
-    piece.X_SBody.push_back(motion.posture.OfBody(body));
-  }
-  piece.displacement = std::move(motion.displacement);
-  Enclose(&piece);
-  return piece;
+  const Some some = known->some[index];
+  if (some.is == Some::kFree) AddInterval(part.begin, part.end, free);
+  if (some.is != Some::kCut) return;
+  const auto first = static_cast<size_t>(some.halves);
+  Collect({part.begin, mid}, first, within, known, free);
+  Collect({mid, part.end}, first + 1, within, known, free);
 }
 
-void ObstacleTimes::Enclose(Piece* piece) const {
-  Eigen::AlignedBox3d box;
-  for (size_t body = 0; body < shapes_.size(); ++body) {
-    const Eigen::Vector3d center = piece->X_SBody[body] * shapes_[body].center();
-    const double radius = shapes_[body].radius() + piece->displacement[body] + kEnclosureRounding;
-    box.extend(Eigen::AlignedBox3d(center.array() - radius, center.array() + radius));
+bool ObstacleTimes::IsHopeless(const Known& known, const Part& part, const Refusal& refusal) const {
+  if (part.end - part.begin > kShort) return false;
+  const Piece& piece = known.pieces->Of(refusal.piece, &made_);
+  for (const double t : {part.begin, 0.5 * (part.begin + part.end), part.end}) {
+    if (Clears(known.pieces->from(), piece, refusal.body, {.X_WS = known.X_WS, .mid = t}))
+      return false;
   }
-  const Eigen::Vector3d middle = box.center();
-  ConvexBody around;
-  for (size_t body = 0; body < shapes_.size(); ++body) {
-    const Eigen::Vector3d center = piece->X_SBody[body] * shapes_[body].center();
-    const double radius = shapes_[body].radius() + piece->displacement[body] + kEnclosureRounding;
-    around.disc_radius = std::max(around.disc_radius, (center - middle).head<2>().norm() + radius);
-  }
-  around.vertices.resize(3, 2);
-  around.vertices << middle.x(), middle.x(), middle.y(), middle.y(), box.min().z(), box.max().z();
-  BoundBySphere(&around);
-  piece->around.emplace(std::move(around));
+  return true;
 }
 
-void ObstacleTimes::Collect(Cover& cover, const Eigen::Isometry3d& X_WS, double begin, double end,
-                            TimeIntervals* free) const {
-  const double mid = 0.5 * (begin + end);
-  const double half = std::max(mid - begin, end - mid);
-  if (IsFree(cover, {.X_WS = X_WS, .mid = mid, .half = half})) {
-    AddInterval(begin, end, free);
-  } else if (end - begin > kShortestStarts) {
-    Collect(cover, X_WS, begin, mid, free);
-    Collect(cover, X_WS, mid, end, free);
-  }
-}
-
-bool ObstacleTimes::IsFree(Cover& cover, const Starts& starts) const {
-  if (cover.refused != 0 &&
-      !Clears(cover, PieceOf(cover, cover.refused), cover.refused_body, starts)) {
+bool ObstacleTimes::IsFree(HalfStepPieces& pieces, const Starts& starts, Some* some) const {
+  Refusal& refusal = some->refusal;
+  if (refusal.piece != 0 &&
+      !Clears(pieces.from(), pieces.Of(refusal.piece, &made_), refusal.body, starts)) {
     return false;
   }
-  std::vector<size_t> everything(robot_.bodies.size());
-  std::iota(everything.begin(), everything.end(), size_t{0});
-  return IsFree(cover, 1, everything, starts);
+  std::vector<size_t> bodies, left;
+  for (size_t body = 0; body < shapes_.size(); ++body) {
+    if (!some->clear[body]) bodies.push_back(body);
+  }
+  const Piece& all = pieces.Of(1, &made_);
+  if (bodies.size() > kFewBodies && AllClear(pieces.from(), all, starts)) return true;
+  for (const size_t body : bodies) {
+    some->clear[body] = Clears(pieces.from(), all, body, starts);
+    if (!some->clear[body]) left.push_back(body);
+  }
+  if (left.empty()) return true;
+  if (!IsCut(pieces, 1, starts)) {
+    refusal = {1, left.front()};
+    return false;
+  }
+  return IsFree(pieces, 2, left, starts, &refusal) && IsFree(pieces, 3, left, starts, &refusal);
 }
 
-std::pair<double, double> ObstacleTimes::TimesOf(const Cover& cover, const Piece& piece,
+bool ObstacleTimes::IsCut(HalfStepPieces& pieces, int n, const Starts& starts) const {
+  const Piece& piece = pieces.Of(n, &made_);
+  // Where the start times are much longer than the piece, they have to be cut first.
+  const bool short_enough = !starts.settled && piece.half <= 0.25 * starts.half;
+  return pieces.lasts() > 0.0 && n < kFinestUnbounded &&
+         (!piece.bounded || (n < kFinestPiece && !short_enough));
+}
+
+std::pair<double, double> ObstacleTimes::TimesOf(double from, const Piece& piece,
                                                  const Starts& starts) {
   if (starts.settled) return {starts.mid, 0.0};
-  return {starts.mid + piece.mid - cover.from, starts.half + piece.half};
+  return {starts.mid + piece.mid - from, starts.half + piece.half};
 }
 
-bool ObstacleTimes::Clears(const Cover& cover, const Piece& piece, size_t body,
+bool ObstacleTimes::Clears(double from, const Piece& piece, size_t body,
                            const Starts& starts) const {
   if (!piece.bounded) return false;
   ++checks_;
-  const auto [t, half] = TimesOf(cover, piece, starts);
+  const auto [t, half] = TimesOf(from, piece, starts);
   return world_.Clears(shapes_[body], starts.X_WS * piece.X_SBody[body], t,
                        clearance_ + piece.displacement[body], &scratch_[body], half);
 }
 
-bool ObstacleTimes::AllClear(const Cover& cover, const Piece& piece, const Starts& starts) const {
+bool ObstacleTimes::AllClear(double from, const Piece& piece, const Starts& starts) const {
   if (!piece.bounded) return false;
   ++checks_;
-  const auto [t, half] = TimesOf(cover, piece, starts);
+  const auto [t, half] = TimesOf(from, piece, starts);
   return world_.Clears(*piece.around, starts.X_WS, t, clearance_, &scratch_.back(), half);
 }
 
-bool ObstacleTimes::IsFree(Cover& cover, int n, const std::vector<size_t>& bodies,
-                           const Starts& starts) const {
-  const Piece& piece = PieceOf(cover, n);
-  if (bodies.size() > kFewBodies && AllClear(cover, piece, starts)) return true;
-  // Where the start times are much longer than the piece, they have to be cut first.
-  const bool short_enough = !starts.settled && piece.half <= 0.25 * starts.half;
-  const bool finest = cover.from == cover.to || n >= kFinestUnbounded ||
-                      (piece.bounded && (n >= kFinestPiece || short_enough));
+bool ObstacleTimes::IsFree(HalfStepPieces& pieces, int n, const std::vector<size_t>& bodies,
+                           const Starts& starts, Refusal* refusal) const {
+  const Piece& piece = pieces.Of(n, &made_);
+  if (bodies.size() > kFewBodies && AllClear(pieces.from(), piece, starts)) return true;
+  const bool finest = !IsCut(pieces, n, starts);
   std::vector<size_t> left;
   for (const size_t body : bodies) {
-    if (Clears(cover, piece, body, starts)) continue;
+    if (Clears(pieces.from(), piece, body, starts)) continue;
     if (finest) {
-      cover.refused = n;
-      cover.refused_body = body;
+      *refusal = {n, body};
       return false;
     }
     left.push_back(body);
   }
   if (left.empty()) return true;
-  return IsFree(cover, 2 * n, left, starts) && IsFree(cover, 2 * n + 1, left, starts);
+  return IsFree(pieces, 2 * n, left, starts, refusal) &&
+         IsFree(pieces, 2 * n + 1, left, starts, refusal);
 }
 
 }  // namespace halfstep

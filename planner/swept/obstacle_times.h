@@ -5,7 +5,6 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -14,7 +13,7 @@
 #include "planner/search/half_step_query.h"
 #include "planner/search/half_step_times.h"
 #include "planner/search/step_set.h"
-#include "wpg/motion/half_step_tracks.h"
+#include "planner/swept/half_step_pieces.h"
 #include "wpg/motion/motion_bounds.h"
 #include "wpg/motion/motion_model.h"
 #include "wpg/robot/robot_model.h"
@@ -27,6 +26,7 @@ namespace halfstep {
 /// it is in the middle of the times that are meant, or no farther than its speed allows. A cylinder
 /// around all bodies is asked first. Where that does not decide, both are halved, down to 1/32 of T
 /// (less where the motion has no bound) and 1/16 s; what is undecided then is told as not free.
+/// Only what is asked about is decided, once, whatever was asked before.
 /// Source: planner/README.md, "Planning in time".
 class ObstacleTimes : public HalfStepTimes {
  public:
@@ -38,60 +38,73 @@ class ObstacleTimes : public HalfStepTimes {
                 const StepSet& set, const Scene& scene, double clearance,
                 const HalfStepQuery* always = nullptr, double latest = 600.0);
 
-  TimeIntervals DownStarts(int i, Side support, const Foothold& X_WS,
-                           const Foothold& X_WF) const override;
-  TimeIntervals UpStarts(int i, Side support, const Foothold& X_WS,
-                         const Foothold& X_WF) const override;
-  TimeIntervals OnBothFeet(int i, Side support, const Foothold& X_WS,
-                           const Foothold& X_WF) const override;
-  TimeIntervals OnOneFoot(Side support, const Foothold& X_WS) const override;
+  TimeIntervals DownStarts(int i, Side support, const Foothold& X_WS, const Foothold& X_WF,
+                           const TimeInterval& within) const override;
+  TimeIntervals UpStarts(int i, Side support, const Foothold& X_WS, const Foothold& X_WF,
+                         const TimeInterval& within) const override;
+  TimeIntervals OnBothFeet(int i, Side support, const Foothold& X_WS, const Foothold& X_WF,
+                           const TimeInterval& within) const override;
+  TimeIntervals OnOneFoot(Side support, const Foothold& X_WS,
+                          const TimeInterval& within) const override;
   double settled() const override { return settled_; }
   double effort() const override;
 
  private:
   // What is asked: a half-step, or the rest before it or after it.
   enum class What { kDown, kUp, kBothFeet, kOneFoot };
-  // The bodies over a piece of a half-step, seen from its support sole.
-  struct Piece {
-    double mid = 0.0, half = 0.0;  // of its local times [s]
-    bool bounded = false;
-    std::vector<Eigen::Isometry3d> X_SBody;  // at mid
-    std::vector<double> displacement;        // from there, at most [m]
-    std::optional<CollisionShape> around;    // upright, holds all bodies wherever they are
-  };
-  // A half-step by halves of halves: piece 1 is all of it, and 2n and 2n + 1 are those of n.
-  struct Cover {
-    HalfStepTracks tracks;
-    double from = 0.0, to = 0.0;  // local times [s]; equal: of a rest
-    std::map<int, Piece> pieces = {};
-    // The piece and the body that were not free the last time: start times nearby mostly are not
-    // either. 0: none yet.
-    int refused = 0;
-    size_t refused_body = 0;
-  };
   // Start times [s], and where the support sole stands.
   struct Starts {
     Eigen::Isometry3d X_WS;
     double mid = 0.0, half = 0.0;
     bool settled = false;  // nothing moves at `mid` and then, as long as it is asked about
   };
+  // A piece and a body that are not free at some start times: those in their halves mostly are not
+  // either. 0: none is known.
+  struct Refusal {
+    int piece = 0;
+    size_t body = 0;
+  };
+  // Some of the start times of a question, by halves of halves.
+  struct Some {
+    enum { kNotAsked, kFree, kNotFree, kCut } is = kNotAsked;
+    int halves = 0;  // where cut, its first half; the second one follows
+    Refusal refusal = {};
+    std::vector<bool> clear = {};  // bodies that are so in all pieces
+  };
+  // Start times that are cut by themselves.
+  struct Part {
+    double begin = 0.0, end = 0.0;  // [s]
+    bool still = false;             // nothing moves until half-steps that begin then have ended
+  };
+  struct Known {
+    HalfStepPieces* pieces = nullptr;
+    Eigen::Isometry3d X_WS;
+    std::vector<Part> parts;  // all times, but those of which nothing is known
+    std::vector<Some> some;   // first one of each part
+  };
+  using Piece = HalfStepPieces::Piece;
   using Question = std::array<double, 8>;
-  using CoverKey = std::array<double, 4>;
+  using PiecesKey = std::array<double, 4>;
 
-  TimeIntervals Answer(What what, int i, Side support, const Foothold& X_WS, double rise) const;
-  Cover& CoverOf(What what, int i, Side support, double rise) const;
-  const Piece& PieceOf(Cover& cover, int n) const;
-  void Enclose(Piece* piece) const;
-  // Adds those of [begin, end] that are free.
-  void Collect(Cover& cover, const Eigen::Isometry3d& X_WS, double begin, double end,
+  TimeIntervals Answer(What what, int i, Side support, const Foothold& X_WS, double rise,
+                       const TimeInterval& within) const;
+  std::vector<Part> PartsOf(double lasts) const;
+  HalfStepPieces& PiecesOf(What what, int i, Side support, double rise) const;
+  // Adds those of `part` that are free, as far as they touch `within`; they are known.some[index].
+  void Collect(const Part& part, size_t index, const TimeInterval& within, Known* known,
                TimeIntervals* free) const;
-  bool IsFree(Cover& cover, const Starts& starts) const;
+  bool IsFree(HalfStepPieces& pieces, const Starts& starts, Some* some) const;
+  // Whether piece n is cut where it is not free.
+  bool IsCut(HalfStepPieces& pieces, int n, const Starts& starts) const;
+  // Whether start times that are not free are so in the middle and at their ends as well, so that
+  // it is not worth to cut them.
+  bool IsHopeless(const Known& known, const Part& part, const Refusal& refusal) const;
   // The middle of the times at which bodies are looked at, and their half-width [s].
-  static std::pair<double, double> TimesOf(const Cover& cover, const Piece& piece,
-                                           const Starts& starts);
-  bool Clears(const Cover& cover, const Piece& piece, size_t body, const Starts& starts) const;
-  bool AllClear(const Cover& cover, const Piece& piece, const Starts& starts) const;
-  bool IsFree(Cover& cover, int n, const std::vector<size_t>& bodies, const Starts& starts) const;
+  static std::pair<double, double> TimesOf(double from, const Piece& piece, const Starts& starts);
+  bool Clears(double from, const Piece& piece, size_t body, const Starts& starts) const;
+  bool AllClear(double from, const Piece& piece, const Starts& starts) const;
+  bool IsFree(HalfStepPieces& pieces, int n, const std::vector<size_t>& bodies,
+              const Starts& starts, Refusal* refusal) const;
 
   const RobotModel& robot_;
   std::shared_ptr<const MotionModel> model_;
@@ -106,8 +119,8 @@ class ObstacleTimes : public HalfStepTimes {
   TimeIntervals still_;  // when nothing moves, before settled_
   mutable std::mutex mutex_;
   mutable std::vector<CollisionWorld::Scratch> scratch_;  // by body, and of what is around them
-  mutable std::map<CoverKey, Cover> covers_;
-  mutable std::map<Question, TimeIntervals> known_;
+  mutable std::map<PiecesKey, HalfStepPieces> pieces_;
+  mutable std::map<Question, Known> known_;
   mutable std::int64_t checks_ = 0, made_ = 0;
 };
 

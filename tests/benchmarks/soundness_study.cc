@@ -128,8 +128,8 @@ int StudyMoving(long wanted, const RobotModel& robot, const ExperimentConfig& co
       const Side side = draw->AnySide();
       const Foothold X_WS = Foothold::Level(draw->Floor(size * kReach));
       const Foothold X_WF = X_WS * volumes.set.Placement(i, side);
-      const TimeIntervals starts =
-          down ? times.DownStarts(i, side, X_WS, X_WF) : times.UpStarts(i, side, X_WS, X_WF);
+      const TimeIntervals starts = down ? times.DownStarts(i, side, X_WS, X_WF, {})
+                                        : times.UpStarts(i, side, X_WS, X_WF, {});
       double t = draw->Uniform(0.0, times.settled() + 1.0);
       if (starts.empty()) continue;
       const TimeInterval& interval =

@@ -8,9 +8,7 @@
 
 #include "planner/search/planners.h"
 #include "planner/search/timed_edges.h"
-#include "planner/swept/obstacle_times.h"
 #include "tests/planner/flat_world.h"
-#include "tests/planner/swept_volume_draws.h"
 
 namespace halfstep {
 namespace {
@@ -30,20 +28,21 @@ class BandTimes : public HalfStepTimes {
   BandTimes(const StepSet& set, std::vector<ShutBand> bands, double settled = 100.0)
       : set_(set), bands_(std::move(bands)), settled_(settled) {}
 
-  TimeIntervals DownStarts(int i, Side support, const Foothold& X_WS,
-                           const Foothold& X_WF) const override {
+  TimeIntervals DownStarts(int i, Side support, const Foothold& X_WS, const Foothold& X_WF,
+                           const TimeInterval&) const override {
     const Pose2 via = X_WS.Planar() * set_.Down(i, support).via();
     return Open({X_WS.Planar(), via, X_WF.Planar()}, set_.prototype.duration);
   }
-  TimeIntervals UpStarts(int i, Side support, const Foothold& X_WS,
-                         const Foothold& X_WF) const override {
+  TimeIntervals UpStarts(int i, Side support, const Foothold& X_WS, const Foothold& X_WF,
+                         const TimeInterval&) const override {
     const Pose2 via = X_WF.Planar() * set_.Up(i, support).via();
     return Open({X_WS.Planar(), via, X_WF.Planar()}, set_.prototype.duration);
   }
-  TimeIntervals OnBothFeet(int, Side, const Foothold& X_WS, const Foothold& X_WF) const override {
+  TimeIntervals OnBothFeet(int, Side, const Foothold& X_WS, const Foothold& X_WF,
+                           const TimeInterval&) const override {
     return Open({X_WS.Planar(), X_WF.Planar()}, 0.0);
   }
-  TimeIntervals OnOneFoot(Side, const Foothold& X_WS) const override {
+  TimeIntervals OnOneFoot(Side, const Foothold& X_WS, const TimeInterval&) const override {
     return Open({X_WS.Planar()}, 0.0);
   }
   double settled() const override { return settled_; }
@@ -122,19 +121,19 @@ double EarliestByTicks(const PlanRequest& request) {
   };
   StepGraph graph(request, AllElements(set));
   for (const StepState& start : graph.FreeStarts()) {
-    if (holds(request.times->OnOneFoot(start.support, start.X_WS), T)) add(T, {start});
+    if (holds(request.times->OnOneFoot(start.support, start.X_WS, {}), T)) add(T, {start});
   }
   for (int tick = 0; tick < last; ++tick) {
     for (const auto& [ignored, s] : at[static_cast<size_t>(tick)]) {
       const Foothold& X_WS = s.from.X_WS;
       const Side side = s.from.support;
       if (s.k < 0) {
-        if (holds(request.times->OnOneFoot(side, X_WS), tick + 1)) add(tick + 1, s);
+        if (holds(request.times->OnOneFoot(side, X_WS, {}), tick + 1)) add(tick + 1, s);
         for (int k = 0; k < set.size(); ++k) {
           const Foothold X_WF = X_WS * set.Placement(k, side);
           if (!request.query.DownIsFree(k, side, X_WS)) continue;
-          if (!holds(request.times->DownStarts(k, side, X_WS, X_WF), tick)) continue;
-          const TimeIntervals stands = request.times->OnBothFeet(k, side, X_WS, X_WF);
+          if (!holds(request.times->DownStarts(k, side, X_WS, X_WF, {}), tick)) continue;
+          const TimeIntervals stands = request.times->OnBothFeet(k, side, X_WS, X_WF, {});
           if (!holds(stands, tick + T)) continue;
           if (request.goal.ContainsLanding(Opposite(side), X_WF, X_WS)) {
             if (std::isinf(IntervalAt(stands, (tick + T) * kTick)->end)) return (tick + T) * kTick;
@@ -145,11 +144,11 @@ double EarliestByTicks(const PlanRequest& request) {
         continue;
       }
       const Foothold X_WF = X_WS * set.Placement(s.k, side);
-      if (holds(request.times->OnBothFeet(s.k, side, X_WS, X_WF), tick + 1)) add(tick + 1, s);
+      if (holds(request.times->OnBothFeet(s.k, side, X_WS, X_WF, {}), tick + 1)) add(tick + 1, s);
       const StepState after{X_WF, Opposite(side)};
       if (request.query.UpIsFree(s.k, side, X_WS) &&
-          holds(request.times->UpStarts(s.k, side, X_WS, X_WF), tick) &&
-          holds(request.times->OnOneFoot(after.support, X_WF), tick + T)) {
+          holds(request.times->UpStarts(s.k, side, X_WS, X_WF, {}), tick) &&
+          holds(request.times->OnOneFoot(after.support, X_WF, {}), tick + T)) {
         add(tick + T, {after});
       }
     }
@@ -214,11 +213,11 @@ TEST(PlanningInTime, ArrivesAsEarlyAsABruteSearchInTimeAndNeverWhereItIsShut) {
     for (size_t j = 0; j < plan.footsteps.size(); ++j) {
       const int k = plan.elements[j];
       const Foothold& X_WF = plan.footsteps[j].X_WF;
-      EXPECT_TRUE(
-          IntervalAt(times.DownStarts(k, state.support, state.X_WS, X_WF), at[2 * j + 1].begin));
+      EXPECT_TRUE(IntervalAt(times.DownStarts(k, state.support, state.X_WS, X_WF, {}),
+                             at[2 * j + 1].begin));
       if (j + 1 < plan.footsteps.size()) {
-        EXPECT_TRUE(
-            IntervalAt(times.UpStarts(k, state.support, state.X_WS, X_WF), at[2 * j + 2].begin));
+        EXPECT_TRUE(IntervalAt(times.UpStarts(k, state.support, state.X_WS, X_WF, {}),
+                               at[2 * j + 2].begin));
       }
       state = {X_WF, Opposite(state.support)};
     }
@@ -357,77 +356,6 @@ TEST(PlanningInTime, RestsAreOnBothFeetWhereTheyMayBe) {
   // The walk ends when it did.
   EXPECT_DOUBLE_EQ(rests[1][0] + rests[1][1],
                    edges[0].rest_on_both_feet + edges[1].rest_on_one_foot);
-}
-
-// A box that crosses from y = −2 to 2 m within six seconds, then a turn.
-Scene CrossingBox(double x) {
-  Obstacle box{.name = "box", .shape = MakeBox(Eigen::Vector3d(0.3, 0.4, 0.8))};
-  box.X_WO.translation() << x, -2.0, 0.4;
-  box.motion.waypoints = {{.t = 6.0, .translation = {x, 2.0, 0.4}},
-                          {.t = 7.0, .translation = {x, 2.0, 0.4}, .yaw = 1.5}};
-  box.motion.error = 0.01;
-  Scene scene;
-  scene.obstacles.push_back(box);
-  return scene;
-}
-
-// The least margin of the robot to the box at local time τ of a half-step that began at `start`.
-double MarginAt(const RobotModel& robot, const CollisionWorld& world, const HalfStepTracks& tracks,
-                double start, double tau) {
-  const Posture posture = SolvePosture(robot, tracks.At(tau).value);
-  double least = 1.0;
-  for (const RobotBody& body : robot.bodies) {
-    least = std::min(
-        least, world.FindNearest(CollisionShape(body.shape), posture.OfBody(body), start + tau, 1.0)
-                   .margin);
-  }
-  return least;
-}
-
-TEST(PlanningInTime, WhatIsCalledFreeKeepsTheClearanceAndAHalfSecondBesideItDoesNot) {
-  const RobotModel& robot = SweptRobot();
-  const StepSet set = FewHalfSteps();
-  const auto model = std::make_shared<Lipm>(robot.com_height);
-  const double clearance = 0.005, T = set.prototype.duration;
-  SweptDraw draw(5);
-  int looked_at = 0, touched = 0, finite = 0;
-  for (int place = 0; place < 12; ++place) {
-    const Scene scene = CrossingBox(draw.Uniform(0.2, 0.6));
-    const CollisionWorld world(scene);
-    const ObstacleTimes times(robot, model, set, scene, clearance);
-    const Side support = draw.AnySide();
-    const int i = draw.Index(set.size());
-    const Foothold X_WS = Foothold::Level(draw.Floor(0.2));
-    const Foothold X_WF = X_WS * set.Placement(i, support);
-    const TimeIntervals starts = place % 2 == 0 ? times.DownStarts(i, support, X_WS, X_WF)
-                                                : times.UpStarts(i, support, X_WS, X_WF);
-    const HalfStepTracks tracks = place % 2 == 0
-                                      ? HalfStepTracks(set.Down(i, support), *model, X_WS)
-                                      : HalfStepTracks(set.Up(i, support), *model, X_WF);
-    ASSERT_FALSE(starts.empty());
-    EXPECT_TRUE(std::isinf(starts.back().end));
-    for (const TimeInterval& one : starts) {
-      finite += std::isfinite(one.end);
-      for (int sample = 0; sample < 20; ++sample) {
-        const double end = std::min(one.end, one.begin + 3.0);
-        const double start = sample == 0   ? one.begin
-                             : sample == 1 ? end
-                                           : draw.Uniform(one.begin, end);
-        EXPECT_GE(MarginAt(robot, world, tracks, start, draw.Uniform(0, T)), clearance);
-        ++looked_at;
-      }
-      // Control: half a second before it begins to be free.
-      if (one.begin < 0.5) continue;
-      double least = 1.0;
-      for (double tau = 0.0; tau <= T; tau += T / 40) {
-        least = std::min(least, MarginAt(robot, world, tracks, one.begin - 0.5, tau));
-      }
-      touched += least < clearance;
-    }
-  }
-  EXPECT_GT(looked_at, 200);
-  EXPECT_GT(finite, 5);
-  EXPECT_GT(touched, 5);
 }
 
 TEST(PlanningInTime, OnlySomePlannersKnowTime) {
