@@ -9,8 +9,8 @@
 #include "experiments/run/plan_inputs.h"
 #include "experiments/run/sloping_tops.h"
 #include "experiments/run/watched_query.h"
+#include "planner/scene/scene_parts.h"
 #include "planner/search/planners.h"
-#include "planner/swept/obstacle_times.h"
 #include "wpg/check.h"
 
 namespace halfstep {

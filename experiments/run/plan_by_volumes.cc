@@ -7,6 +7,7 @@
 #include "experiments/run/certified_half_steps.h"
 #include "experiments/run/crossing_query.h"
 #include "experiments/run/footstep_search.h"
+#include "planner/scene/scene_parts.h"
 #include "planner/swept/obstacle_places.h"
 #include "planner/swept/obstacle_times.h"
 #include "planner/swept/swept_volume_query.h"

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "planner/scene/scene_parts.h"
 #include "wpg/check.h"
 
 namespace halfstep {
@@ -63,20 +64,6 @@ void AddInterval(double begin, double end, TimeIntervals* free) {
 }
 
 }  // namespace
-
-Scene RestingPart(const Scene& scene) {
-  Scene resting = scene;
-  std::erase_if(resting.obstacles, [](const Obstacle& obstacle) { return !obstacle.rests(); });
-  return resting;
-}
-
-Scene MovingPart(const Scene& scene) {
-  Scene moving = scene.Emptied();
-  for (const Obstacle& obstacle : scene.obstacles) {
-    if (!obstacle.rests()) moving.obstacles.push_back(obstacle);
-  }
-  return moving;
-}
 
 ObstacleTimes::ObstacleTimes(const RobotModel& robot, std::shared_ptr<const MotionModel> model,
                              const StepSet& set, const Scene& scene, double clearance,

@@ -124,9 +124,4 @@ class ObstacleTimes : public HalfStepTimes {
   mutable std::int64_t checks_ = 0, made_ = 0;
 };
 
-/// The scene without what moves, and with nothing but that.
-Scene RestingPart(const Scene& scene);
-/// The other part: on its ground, without areas and files.
-Scene MovingPart(const Scene& scene);
-
 }  // namespace halfstep

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/swept/obstacle_times.h"
+#include "planner/scene/scene_parts.h"
 #include "wpg/motion/half_step_tracks.h"
 #include "wpg/motion/posture.h"
 #include "wpg/nth.h"

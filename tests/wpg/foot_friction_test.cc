@@ -79,7 +79,8 @@ TEST(FootFriction, ByRatesIsNotBelowWhatTheMidpointNeeds) {
   // The ZMP is 3.2 cm from the left end of the soles' hull, and far from its lower one.
   const Pose2 one{-0.022, -0.086, 0}, other{one.x + 0.1, one.y + 0.3, 0};
   const SupportPolygon hull(one, other, {0.02, 0.1});
-  const auto friction = FootFriction::Of(asking.That(at_m), hull);
+  const RobotDynamics dynamics = asking.That(at_m);
+  const auto friction = FootFriction::Of(dynamics, hull);
   ASSERT_TRUE(friction);
   constexpr double h = 0.01;
   const ContactRate rate{
@@ -157,7 +158,8 @@ TEST(FootFriction, IsNotExceededWhateverNormsAllow) {
     // The yaw moment about where the ZMP was changes by what the bodies let it.
     const double sign = draw.Uniform(0, 1) < 0.5 ? -1 : 1;
     then.turn += sign * body.moment - moment.z();
-    const auto needed = FootFriction::Of(asking.That(then), polygon);
+    const RobotDynamics dynamics = asking.That(then);
+    const auto needed = FootFriction::Of(dynamics, polygon);
     ASSERT_TRUE(needed);
     grown.Compare(needed->needed() - friction->needed(), grows, 10.0);
   }

@@ -25,6 +25,8 @@ class FootFriction {
   /// inside.
   static std::optional<FootFriction> Of(const RobotDynamics& dynamics,
                                         const SupportPolygon& polygon, double height = 0.0);
+  static std::optional<FootFriction> Of(RobotDynamics&& dynamics, const SupportPolygon& polygon,
+                                        double height = 0.0) = delete;
   /// Of two soles at different heights, at their places in the walk's quantities x. None where the
   /// floor does not push, or the line of the ZMPs is not inside of the soles' hull.
   static std::optional<FootFriction> OnLevels(const RobotDynamics& dynamics, const WalkState& x,
