@@ -128,9 +128,10 @@ int StudyMoving(long wanted, const RobotModel& robot, const ExperimentConfig& co
       const Side side = draw->AnySide();
       const Foothold X_WS = Foothold::Level(draw->Floor(size * kReach));
       const Foothold X_WF = X_WS * volumes.set.Placement(i, side);
-      const TimeIntervals starts = down ? times.DownStarts(i, side, X_WS, X_WF, {})
-                                        : times.UpStarts(i, side, X_WS, X_WF, {});
       double t = draw->Uniform(0.0, times.settled() + 1.0);
+      const TimeInterval within{std::max(0.0, t - 1.0), t + 1.0};
+      const TimeIntervals starts = down ? times.DownStarts(i, side, X_WS, X_WF, within)
+                                        : times.UpStarts(i, side, X_WS, X_WF, within);
       if (starts.empty()) continue;
       const TimeInterval& interval =
           starts[static_cast<size_t>(draw->Index(static_cast<int>(starts.size())))];
