@@ -40,15 +40,28 @@ bool WatchedQuery::Note(bool free, bool up, int i, Side support, const Foothold&
 
 TimeIntervals WatchedTimes::DownStarts(int i, Side support, const Foothold& X_WS,
                                        const Foothold& X_WF, const TimeInterval& within) const {
-  TimeIntervals times = times_.DownStarts(i, support, X_WS, X_WF, within);
-  if (!HaveAllOf(within, times)) refused_.Add(i, false, support, X_WS);
-  return times;
+  return Note(times_.DownStarts(i, support, X_WS, X_WF, within), within, i, false, support, X_WS);
 }
 
 TimeIntervals WatchedTimes::UpStarts(int i, Side support, const Foothold& X_WS,
                                      const Foothold& X_WF, const TimeInterval& within) const {
-  TimeIntervals times = times_.UpStarts(i, support, X_WS, X_WF, within);
-  if (!HaveAllOf(within, times)) refused_.Add(i, true, support, X_WS);
+  return Note(times_.UpStarts(i, support, X_WS, X_WF, within), within, i, true, support, X_WS);
+}
+
+TimeIntervals WatchedTimes::OnBothFeet(int i, Side support, const Foothold& X_WS,
+                                       const Foothold& X_WF, const TimeInterval& within) const {
+  return Note(times_.OnBothFeet(i, support, X_WS, X_WF, within), within, i, false, support, X_WS);
+}
+
+TimeIntervals WatchedTimes::OnOneFoot(Side support, const Foothold& X_WS,
+                                      const TimeInterval& within) const {
+  constexpr int kAny = 0;  // all that begin there begin like that
+  return Note(times_.OnOneFoot(support, X_WS, within), within, kAny, false, support, X_WS);
+}
+
+TimeIntervals WatchedTimes::Note(TimeIntervals times, const TimeInterval& within, int i, bool up,
+                                 Side support, const Foothold& X_WS) const {
+  if (!HaveAllOf(within, times)) refused_.Add(i, up, support, X_WS);
   return times;
 }
 

@@ -76,20 +76,19 @@ class WatchedTimes : public HalfStepTimes {
   TimeIntervals UpStarts(int i, Side support, const Foothold& X_WS, const Foothold& X_WF,
                          const TimeInterval& within) const override;
   TimeIntervals OnBothFeet(int i, Side support, const Foothold& X_WS, const Foothold& X_WF,
-                           const TimeInterval& within) const override {
-    return times_.OnBothFeet(i, support, X_WS, X_WF, within);
-  }
+                           const TimeInterval& within) const override;
   TimeIntervals OnOneFoot(Side support, const Foothold& X_WS,
-                          const TimeInterval& within) const override {
-    return times_.OnOneFoot(support, X_WS, within);
-  }
+                          const TimeInterval& within) const override;
   double settled() const override { return times_.settled(); }
   double effort() const override { return times_.effort(); }
 
-  /// Half-steps that are not free at some time that was asked about.
+  /// Half-steps that are not free at some time that was asked about, themselves or at an end.
   const NearestRefused& refused() const { return refused_; }
 
  private:
+  TimeIntervals Note(TimeIntervals times, const TimeInterval& within, int i, bool up, Side support,
+                     const Foothold& X_WS) const;
+
   const HalfStepTimes& times_;
   mutable NearestRefused refused_;
 };
