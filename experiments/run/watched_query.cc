@@ -17,7 +17,9 @@ void NearestRefused::Add(int i, bool up, Side support, const Foothold& X_WS) {
   constexpr size_t kKept = 1000;
   const double left = Left(X_WS);
   if (left > farthest_kept_) return;
-  all_.push_back({i, up, support, X_WS, left});
+  const AskedHalfStep asked{i, up, support, X_WS, left};
+  if (!all_.empty() && all_.back() == asked) return;  // in time it is asked about again and again
+  all_.push_back(asked);
   if (all_.size() < 2 * kKept) return;
   std::ranges::stable_sort(all_, {}, &AskedHalfStep::left);
   all_.resize(kKept);

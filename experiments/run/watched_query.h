@@ -17,6 +17,7 @@ struct AskedHalfStep {
   Side support = Side::kLeft;  ///< as HalfStepQuery::DownIsFree has it
   Foothold X_WS;               ///< as HalfStepQuery::DownIsFree has it
   double left = 0.0;           ///< from that sole to the goal [m]
+  bool operator==(const AskedHalfStep&) const = default;
 };
 
 /// Of half-steps that a planner was refused, those that begin nearest to the goal.
