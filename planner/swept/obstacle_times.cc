@@ -215,7 +215,7 @@ void ObstacleTimes::Collect(const Part& part, size_t index, const TimeInterval& 
     }
     known->some[index] = some;
   }
-  const Some some = known->some[index];
+  const Some& some = known->some[index];
   if (some.is == Some::kFree) AddInterval(part.begin, part.end, free);
   if (some.is != Some::kCut) return;
   const auto first = static_cast<size_t>(some.halves);
