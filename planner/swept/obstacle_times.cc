@@ -12,7 +12,7 @@ namespace halfstep {
 namespace {
 
 constexpr double kShortestStarts = 1.0 / 16;  // [s] start times are not cut below this
-constexpr double kShort = 1.0;                // [s] not below that where little speaks for it
+constexpr double kShort = 1.0;                // [s] nor below this where they are hopeless
 constexpr size_t kFewBodies = 2;              // of which no cylinder is asked
 constexpr int kFinestPiece = 32;              // the first of those that are not cut
 constexpr int kFinestUnbounded = 1 << 14;     // the same where the motion has no bound yet
@@ -227,8 +227,9 @@ bool ObstacleTimes::IsHopeless(const Known& known, const Part& part, const Refus
   if (part.end - part.begin > kShort) return false;
   const Piece& piece = known.pieces->Of(refusal.piece, &made_);
   for (const double t : {part.begin, 0.5 * (part.begin + part.end), part.end}) {
-    if (Clears(known.pieces->from(), piece, refusal.body, {.X_WS = known.X_WS, .mid = t}))
+    if (Clears(known.pieces->from(), piece, refusal.body, {.X_WS = known.X_WS, .mid = t})) {
       return false;
+    }
   }
   return true;
 }

@@ -25,8 +25,9 @@ namespace halfstep {
 /// piece of the half-step, or no farther from there than its motion allows; each obstacle is where
 /// it is in the middle of the times that are meant, or no farther than its speed allows. A cylinder
 /// around all bodies is asked first. Where that does not decide, both are halved, down to 1/32 of T
-/// (less where the motion has no bound) and 1/16 s; what is undecided then is told as not free.
-/// Only what is asked about is decided, once, whatever was asked before.
+/// (less where the motion has no bound) and 1/16 s, or 1 s where one body is in the way at the
+/// beginning, in the middle and at the end. What is undecided then is told as not free. Only what
+/// is asked about is decided; answers do not depend on what was asked before.
 /// Source: planner/README.md, "Planning in time".
 class ObstacleTimes : public HalfStepTimes {
  public:
