@@ -33,9 +33,8 @@ inline const TimeInterval* IntervalAt(const TimeIntervals& intervals, double t) 
 
 /// Answers when a half-step of a StepSet, placed in the world, is free of all that moves there, and
 /// when the robot may rest before and after it. Each interval is proved for all of its times;
-/// times in doubt are in none. All that have times in common with `within` are told, and none of
-/// the others has to be: an interval may end where nothing was asked any more. What rests is asked
-/// of a HalfStepQuery. Const and thread-safe.
+/// times in doubt are in none. An answer is complete for the times of `within`. Of other times it
+/// may hold some, all, or none. What rests is asked of a HalfStepQuery. Const and thread-safe.
 /// Source: planner/README.md, "Planning in time"; safe intervals after [Phillips2011].
 class HalfStepTimes {
  public:

@@ -22,7 +22,8 @@ struct TimedEdge {
   TimedState to;                   ///< where it leads; at the goal only `state` and `since` are set
   double rest_on_one_foot = 0.0;   ///< before its down half-step [s]
   double rest_on_both_feet = 0.0;  ///< before its up half-step [s]
-  double latest_up = 0.0;          ///< when its up half-step begins, or could begin as well [s]
+  double latest_up = 0.0;          ///< no earlier than its up half-step begins; it may begin at
+                                   ///< any time up to then [s]
 };
 
 /// The edges of a StepGraph in time: raw half-steps of equal duration T, and rests between them,
@@ -72,8 +73,9 @@ class TimedEdges {
   double begin_;
 };
 
-/// The edges of a chain, element ks[j] taken by edges[j] from `at` on; where the next one rests on
-/// one foot, it is asked how much later the up half-step before may begin. `T` as in TimedEdges.
+/// The edges of a chain that begins at `at`: edge j takes element ks[j]. Where the edge after it
+/// begins with a rest on one foot, `latest_up` becomes as late as `times` proves, by no more than
+/// that rest. `T` as in TimedEdges.
 std::vector<TimedEdge> WithLatestUps(const HalfStepTimes& times, const StepGraph& graph,
                                      StepState at, const std::vector<int>& ks,
                                      std::vector<TimedEdge> edges, double T);

@@ -20,34 +20,6 @@ constexpr double kClearanceRounding = 1e-9;   // [m]
 // Of pieces that are made and of bodies that are looked at, as PlanProgress::effort [µs].
 constexpr double kPieceCost = 15.0, kCheckCost = 0.3;
 
-// From when on an obstacle is where it stays [s]; ∞: never.
-double SettlesAt(const Obstacle& obstacle) {
-  const ObstacleMotion& motion = obstacle.motion;
-  const double arrives = motion.waypoints.empty() ? 0.0 : motion.waypoints.back().t;
-  const double known = motion.speed == 0.0 ? 0.0 : motion.measured_at + motion.horizon;
-  return std::max({0.0, arrives, known});
-}
-
-// When an obstacle begins or ceases to move, or to be known less well, in any order [s].
-std::vector<double> ChangesOf(const ObstacleMotion& motion) {
-  std::vector<double> changes;
-  for (const ObstacleMotion::Waypoint& waypoint : motion.waypoints) changes.push_back(waypoint.t);
-  if (motion.speed > 0.0) {
-    for (const double since : {-motion.horizon, 0.0, motion.horizon}) {
-      changes.push_back(motion.measured_at + since);
-    }
-  }
-  return changes;
-}
-
-// Whether pose and uncertainty are the same from one change to the next.
-bool RestsBetween(const Obstacle& obstacle, double begin, double end) {
-  const double mid = 0.5 * (begin + end);
-  return obstacle.motion.UncertaintyRateAt(mid) == 0.0 &&
-         obstacle.PoseAt(begin).isApprox(obstacle.PoseAt(mid), 0.0) &&
-         obstacle.PoseAt(mid).isApprox(obstacle.PoseAt(end), 0.0);
-}
-
 // Only what moves, on no ground.
 Scene WithoutGround(const Scene& scene) {
   Scene moving = MovingPart(scene);
@@ -73,32 +45,12 @@ ObstacleTimes::ObstacleTimes(const RobotModel& robot, std::shared_ptr<const Moti
       set_(set),
       always_(always),
       world_(WithoutGround(scene)),
+      still_(scene, latest),
       bounds_(robot),
       clearance_(clearance + kClearanceRounding),
       scratch_(robot.bodies.size() + 1) {
-  HALFSTEP_CHECK(clearance >= 0.0 && latest >= 0.0,
-                 "clearance = " << clearance << ", latest = " << latest);
+  HALFSTEP_CHECK(clearance >= 0.0, "clearance = " << clearance);
   for (const RobotBody& body : robot.bodies) shapes_.emplace_back(body.shape);
-  for (const Obstacle& obstacle : scene.obstacles) {
-    if (!obstacle.rests()) settled_ = std::max(settled_, SettlesAt(obstacle));
-  }
-  settles_ = settled_ <= latest;
-  settled_ = std::min(settled_, latest);
-  std::vector<double> changes = {0.0, settled_};
-  for (const Obstacle& obstacle : scene.obstacles) {
-    if (obstacle.rests()) continue;
-    for (const double t : ChangesOf(obstacle.motion)) {
-      if (t > 0.0 && t < settled_) changes.push_back(t);
-    }
-  }
-  std::ranges::sort(changes);
-  for (size_t i = 0; i + 1 < changes.size(); ++i) {
-    if (changes[i] == changes[i + 1]) continue;
-    const bool rests = std::ranges::all_of(scene.obstacles, [&](const Obstacle& obstacle) {
-      return obstacle.rests() || RestsBetween(obstacle, changes[i], changes[i + 1]);
-    });
-    if (rests) still_.push_back({changes[i], changes[i + 1]});
-  }
 }
 
 TimeIntervals ObstacleTimes::DownStarts(int i, Side support, const Foothold& X_WS,
@@ -164,15 +116,17 @@ TimeIntervals ObstacleTimes::Answer(What what, int i, Side support, const Footho
 std::vector<ObstacleTimes::Part> ObstacleTimes::PartsOf(double lasts) const {
   std::vector<Part> parts;
   double begin = 0.0;
-  for (const TimeInterval& still : still_) {
+  for (const TimeInterval& still : still_.before_settled()) {
     const double end = still.end - lasts;
     if (end <= still.begin) continue;
     if (begin < still.begin) parts.push_back({begin, still.begin});
     parts.push_back({still.begin, end, true});
     begin = end;
   }
-  if (begin < settled_) parts.push_back({begin, settled_});
-  if (settles_) parts.push_back({settled_, std::numeric_limits<double>::infinity(), true});
+  if (begin < still_.settled()) parts.push_back({begin, still_.settled()});
+  if (still_.settles()) {
+    parts.push_back({still_.settled(), std::numeric_limits<double>::infinity(), true});
+  }
   return parts;
 }
 
@@ -240,17 +194,14 @@ bool ObstacleTimes::IsFree(HalfStepPieces& pieces, const Starts& starts, Some* s
       !Clears(pieces.from(), pieces.Of(refusal.piece, &made_), refusal.body, starts)) {
     return false;
   }
-  std::vector<size_t> bodies, left;
+  std::vector<size_t> bodies;
   for (size_t body = 0; body < shapes_.size(); ++body) {
     if (!some->clear[body]) bodies.push_back(body);
   }
-  const Piece& all = pieces.Of(1, &made_);
-  if (bodies.size() > kFewBodies && AllClear(pieces.from(), all, starts)) return true;
-  for (const size_t body : bodies) {
-    some->clear[body] = Clears(pieces.from(), all, body, starts);
-    if (!some->clear[body]) left.push_back(body);
-  }
+  const std::vector<size_t> left =
+      NotClear(pieces.from(), pieces.Of(1, &made_), bodies, starts, bodies.size());
   if (left.empty()) return true;
+  for (const size_t body : bodies) some->clear[body] = !std::ranges::binary_search(left, body);
   if (!IsCut(pieces, 1, starts)) {
     refusal = {1, left.front()};
     return false;
@@ -288,21 +239,27 @@ bool ObstacleTimes::AllClear(double from, const Piece& piece, const Starts& star
   return world_.Clears(*piece.around, starts.X_WS, t, clearance_, &scratch_.back(), half);
 }
 
+std::vector<size_t> ObstacleTimes::NotClear(double from, const Piece& piece,
+                                            const std::vector<size_t>& bodies, const Starts& starts,
+                                            size_t at_most) const {
+  std::vector<size_t> left;
+  if (bodies.size() > kFewBodies && AllClear(from, piece, starts)) return left;
+  for (size_t b = 0; b < bodies.size() && left.size() < at_most; ++b) {
+    if (!Clears(from, piece, bodies[b], starts)) left.push_back(bodies[b]);
+  }
+  return left;
+}
+
 bool ObstacleTimes::IsFree(HalfStepPieces& pieces, int n, const std::vector<size_t>& bodies,
                            const Starts& starts, Refusal* refusal) const {
-  const Piece& piece = pieces.Of(n, &made_);
-  if (bodies.size() > kFewBodies && AllClear(pieces.from(), piece, starts)) return true;
-  const bool finest = !IsCut(pieces, n, starts);
-  std::vector<size_t> left;
-  for (const size_t body : bodies) {
-    if (Clears(pieces.from(), piece, body, starts)) continue;
-    if (finest) {
-      *refusal = {n, body};
-      return false;
-    }
-    left.push_back(body);
-  }
+  const bool cut = IsCut(pieces, n, starts);
+  const std::vector<size_t> left =
+      NotClear(pieces.from(), pieces.Of(n, &made_), bodies, starts, cut ? bodies.size() : 1);
   if (left.empty()) return true;
+  if (!cut) {
+    *refusal = {n, left.front()};
+    return false;
+  }
   return IsFree(pieces, 2 * n, left, starts, refusal) &&
          IsFree(pieces, 2 * n + 1, left, starts, refusal);
 }

@@ -14,6 +14,7 @@
 #include "planner/search/half_step_times.h"
 #include "planner/search/step_set.h"
 #include "planner/swept/half_step_pieces.h"
+#include "planner/swept/still_times.h"
 #include "wpg/motion/motion_bounds.h"
 #include "wpg/motion/motion_model.h"
 #include "wpg/robot/robot_model.h"
@@ -47,7 +48,7 @@ class ObstacleTimes : public HalfStepTimes {
                            const TimeInterval& within) const override;
   TimeIntervals OnOneFoot(Side support, const Foothold& X_WS,
                           const TimeInterval& within) const override;
-  double settled() const override { return settled_; }
+  double settled() const override { return still_.settled(); }
   double effort() const override;
 
  private:
@@ -104,6 +105,9 @@ class ObstacleTimes : public HalfStepTimes {
   static std::pair<double, double> TimesOf(double from, const Piece& piece, const Starts& starts);
   bool Clears(double from, const Piece& piece, size_t body, const Starts& starts) const;
   bool AllClear(double from, const Piece& piece, const Starts& starts) const;
+  // The first `at_most` of the bodies that the bound of a piece does not prove clear.
+  std::vector<size_t> NotClear(double from, const Piece& piece, const std::vector<size_t>& bodies,
+                               const Starts& starts, size_t at_most) const;
   bool IsFree(HalfStepPieces& pieces, int n, const std::vector<size_t>& bodies,
               const Starts& starts, Refusal* refusal) const;
 
@@ -112,12 +116,10 @@ class ObstacleTimes : public HalfStepTimes {
   const StepSet& set_;
   const HalfStepQuery* always_;
   CollisionWorld world_;
+  StillTimes still_;
   std::vector<CollisionShape> shapes_;  // of the robot's bodies
   MotionBounds bounds_;
   double clearance_;
-  double settled_ = 0.0;
-  bool settles_ = true;
-  TimeIntervals still_;  // when nothing moves, before settled_
   mutable std::mutex mutex_;
   mutable std::vector<CollisionWorld::Scratch> scratch_;  // by body, and of what is around them
   mutable std::map<PiecesKey, HalfStepPieces> pieces_;
