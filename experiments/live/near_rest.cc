@@ -58,7 +58,7 @@ std::optional<NearRest> NearRest::At(const SafetyCheck& among, const ExperimentC
     // To demand less of an obstacle is to know better where it is.
     Nth(scene.obstacles, margin.other).motion.error -=
         demanded - std::max(0.0, margin.value - kNearer);
-    safety.emplace(evaluator.robot(), scene, config);
+    safety.emplace(among.evaluator().robot(), scene, config);
   }
   if (!safety) return std::nullopt;
   return NearRest(half_step, nearest, *std::move(safety), config);
