@@ -60,14 +60,19 @@ class Surveyor {
     draft_.urdf.TurnFrame(draft_.legs.waist, draft_.R_LinkB);
     AskForTheClass();
     FindBodies();
+    const double apart = kArmsApart * ScaleOf(legs_[0]);
+    Take(LowerArms(draft_.urdf, draft_.legs.waist, draft_.posture, bodies_, apart));
     const RobotModel model = StandApart(request_.stance, legs_, bodies_, &draft_);
     const SelfGaps gaps(model, WalkedPostures(model));
     draft_.excluded = NeighboursThatTouch(draft_.urdf, draft_.legs, draft_.posture, model, gaps);
-    const double scale = ScaleOf(model.legs[0]);
-    for (const ArmTurn& turn : KeepArmsOff(draft_.urdf, draft_.legs.waist, draft_.posture, model,
-                                           gaps, kArmsApart * scale)) {
+    Take(KeepArmsOff(draft_.urdf, draft_.legs.waist, draft_.posture, model, gaps, apart));
+  }
+
+  void Take(const std::vector<ArmTurn>& turns) {
+    for (const ArmTurn& turn : turns) {
       Nth(draft_.posture, turn.joint) = turn.angle;
-      draft_.why_posture[turn.joint] = turn.why;
+      std::string& why = draft_.why_posture[turn.joint];
+      why += (why.empty() ? "" : "; ") + turn.why;
     }
   }
 

@@ -1,7 +1,7 @@
 #include "planner/swept/still_times.h"
 
-#include <Eigen/Core>
 #include <algorithm>
+#include <cstddef>
 #include <vector>
 
 #include "planner/scene/scene_parts.h"
@@ -30,16 +30,17 @@ std::vector<double> ChangesOf(const ObstacleMotion& motion) {
   return changes;
 }
 
-// Whether pose and uncertainty are the same from one change to the next: in between the frame moves
-// straight and turns steadily, so its middle speaks for all.
+// Whether pose and uncertainty are the same from one change to the next: what holds in the middle
+// holds all the time.
 bool RestsBetween(const Obstacle& obstacle, double begin, double end) {
+  const ObstacleMotion& motion = obstacle.motion;
   const double mid = 0.5 * (begin + end);
-  const Eigen::Vector3d origin = obstacle.PoseAt(mid).translation();
-  const auto rests = [&](const Eigen::Vector3d& p_W) {
-    return obstacle.motion.VelocityAt(obstacle.X_WO, mid, p_W).isZero(0.0);
-  };
-  return obstacle.motion.UncertaintyRateAt(mid) == 0.0 && rests(origin) &&
-         rests(origin + Eigen::Vector3d::UnitX());
+  const auto ahead =
+      std::ranges::upper_bound(motion.waypoints, mid, {}, &ObstacleMotion::Waypoint::t);
+  const auto index = static_cast<size_t>(ahead - motion.waypoints.begin());
+  const bool stays =
+      index == motion.waypoints.size() || motion.SpeedTo(index, obstacle.X_WO, 1.0) == 0.0;
+  return stays && motion.UncertaintyRateAt(mid) == 0.0;
 }
 
 }  // namespace

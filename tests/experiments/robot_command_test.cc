@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <utility>
 
 #include "experiments/commands/commands.h"
 #include "experiments/config/experiment.h"
@@ -20,6 +21,7 @@
 #include "tests/wpg/shipped_robots.h"
 #include "wpg/files/input_error.h"
 #include "wpg/geometry/rotation.h"
+#include "wpg/robot/standing_bounds.h"
 
 namespace halfstep {
 namespace {
@@ -103,6 +105,25 @@ TEST(RobotSurvey, FindsLegsSolesAndAPostureOfRobotsWithOtherAxes) {
     EXPECT_NEAR(model.legs[0].X_BSole.translation().x(), model.legs[1].X_BSole.translation().x(),
                 1e-6);
   }
+}
+
+// HRP-2's arms stretch to the sides where its joints are zero; the file lowers them.
+TEST(RobotSurvey, LowersArmsThatStretchToTheSides) {
+  const TemporaryFolder place;
+  std::string urdf = ReadText(kRobots / "hrp2.urdf");
+  for (const auto& [arm, roll] : {std::pair{"RARM", "-1.5707963"}, {"LARM", "1.5707963"}}) {
+    const std::string child = std::string("<child link=\"") + arm + "_LINK1\"/>\n    <origin ";
+    urdf = Replaced(urdf, child, child + "rpy=\"" + roll + " 0 0\" ");
+  }
+  const auto survey = [&](const std::string& text) {
+    return ModelOf(SurveyRobot({.urdf = WriteText(place / "robot.urdf", text),
+                                .packages = {{"hrp2_bodies", (kRobots / "hrp2").string()}}})
+                       .draft);
+  };
+  const RobotModel hangs = survey(ReadText(kRobots / "hrp2.urdf")), lowered = survey(urdf);
+  const auto breadth = [](const RobotModel& robot) { return StandingBounds(robot).sizes().y(); };
+  EXPECT_NEAR(breadth(lowered), breadth(hangs), 0.02);
+  EXPECT_NEAR(lowered.com_height, hangs.com_height, 0.002);
 }
 
 // Knees of half the torque: bison stands straighter, and the file says why.
