@@ -13,20 +13,30 @@ namespace {
 
 constexpr std::array<double, 5> kSecond = {-205.0 / 72, 8.0 / 5, -1.0 / 5, 8.0 / 315, -1.0 / 560};
 
-using Points = Eigen::Matrix<double, 3, 6>;
+// Point masses that have a body's mass, centre and inertia, in its frame: two equal ones on each
+// principal axis and one in the centre. A mass is negative where no rigid body has such an inertia;
+// otherwise that in the centre is 0.
+struct PointMasses {
+  Eigen::Matrix<double, 3, 7> places;
+  Eigen::Matrix<double, 7, 1> masses;
+};
 
-// Six equal point masses on the principal axes of a body, in its frame.
-Points PointsOf(const BodyMass& body) {
+PointMasses PointMassesOf(const BodyMass& body) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(body.inertia);
   const Eigen::Vector3d moments = solver.eigenvalues();
-  Points points;
+  PointMasses points;
+  int positive = 0;
   for (Eigen::Index k = 0; k < 3; ++k) {
-    // ∫x² dm along the axis; negative where no body has such an inertia.
-    const double square = 0.5 * moments.sum() - moments[k];
-    const Eigen::Vector3d away = std::sqrt(3 * square / body.mass) * solver.eigenvectors().col(k);
-    points.col(2 * k) = body.com + away;
-    points.col(2 * k + 1) = body.com - away;
+    const double square = 0.5 * moments.sum() - moments[k];  // ∫x² dm along the axis
+    const Eigen::Vector3d away =
+        std::sqrt(3 * std::abs(square) / body.mass) * solver.eigenvectors().col(k);
+    points.places.col(2 * k) = body.com + away;
+    points.places.col(2 * k + 1) = body.com - away;
+    points.masses.segment<2>(2 * k).setConstant(square < 0.0 ? -body.mass / 6 : body.mass / 6);
+    if (square >= 0.0) ++positive;
   }
+  points.places.col(6) = body.com;
+  points.masses[6] = body.mass / 3 * (6 - 2 * positive);
   return points;
 }
 
@@ -44,16 +54,17 @@ std::optional<RobotMomentum> RobotMomentum::Of(const RobotModel& robot, const Wa
   const auto push_on = [&](const BodyMass& body, const auto& pose) {
     Push push;
     if (!(body.mass > 0)) return push;
-    const Points points = PointsOf(body);
-    const Points here = pose(postures[4]) * points;
-    Points a = kSecond[0] * here;
+    const PointMasses points = PointMassesOf(body);
+    const Eigen::Matrix<double, 3, 7> here = pose(postures[4]) * points.places;
+    Eigen::Matrix<double, 3, 7> a = kSecond[0] * here;
     for (size_t k = 1; k <= 4; ++k) {
-      a += kSecond[k] * (pose(postures[4 + k]) * points + pose(postures[4 - k]) * points);
+      a += kSecond[k] *
+           (pose(postures[4 + k]) * points.places + pose(postures[4 - k]) * points.places);
     }
     a /= step * step;
-    for (Eigen::Index i = 0; i < 6; ++i) {
+    for (Eigen::Index i = 0; i < 7; ++i) {
       const Eigen::Vector3d force =
-          body.mass / 6 * (a.col(i) + kGravity * Eigen::Vector3d::UnitZ());
+          points.masses[i] * (a.col(i) + kGravity * Eigen::Vector3d::UnitZ());
       push.force += force;
       push.moment += here.col(i).cross(force);
     }

@@ -18,10 +18,10 @@ struct Push {
 };
 
 /// What moves the robot's bodies against gravity when the walk's quantities have these values and
-/// derivatives. Every body counts as six point masses with its mass, centre and inertia; their
-/// accelerations are differences of eighth order of the places that inverse and forward kinematics
-/// give them while the quantities go along the parabola of `at`. Nothing of the dynamics that the
-/// prover uses.
+/// derivatives. Every body counts as point masses with its mass, centre and inertia (negative ones
+/// where no rigid body has such an inertia); their accelerations are differences of eighth order of
+/// the places that inverse and forward kinematics give them while the quantities go along the
+/// parabola of `at`. Nothing of the dynamics that the prover uses.
 struct RobotMomentum {
   Push floor;                                            ///< on the whole robot
   std::array<std::array<Push, 6>, 2> links;              ///< on each leg link, by Index(Side)

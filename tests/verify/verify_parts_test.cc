@@ -200,6 +200,23 @@ TEST(RobotMomentum, ItsZmpIsAPointOfTheFloor) {
   }
 }
 
+// Forces are linear in inertias, those that no rigid body has included: a public URDF states some.
+TEST(RobotMomentum, IsLinearInInertias) {
+  const SuperposedWalk walk(Fig5().sequence, PlannedMotion(Fig5().sequence));
+  const DescribedWalk described(Fig5().robot, PlanOf(Fig5().sequence), RowsOf(walk));
+  const auto floor_with = [&](const Eigen::Vector3d& moments) {
+    RobotModel robot = Fig5().robot;
+    robot.masses.links[0][2].inertia = moments.asDiagonal();
+    const auto momentum = RobotMomentum::Of(robot, described.At(0.9), described.NearAngles(0.9));
+    EXPECT_TRUE(momentum);
+    return momentum->floor.moment;
+  };
+  const Eigen::Vector3d thin(0.4, 0.5, 0.6), wrong(2.0, 0.3, 0.2);
+  const Eigen::Vector3d mean = floor_with(0.5 * (thin + wrong));
+  EXPECT_LT((0.5 * (floor_with(thin) + floor_with(wrong)) - mean).norm(), 1e-6);
+  EXPECT_GT((floor_with(thin) - mean).norm(), 1e-4);
+}
+
 TEST(CheckFloor, SeesABodyThatIsLowestBetweenTwoRows) {
   RobotModel robot = WithoutBodies();
   std::vector<PlayedRow> rows = TwoRows();
