@@ -28,7 +28,7 @@ COLUMNS = ["seed", "scene", "way", "status", "footsteps", "nodes", "queries", "f
 TEN = ["planner.unimproved_nodes=5000"]
 WAYS = {
     "default": [],
-    "default_10": ["planner.improving_effort=10", "planner.max_nodes=100000000"],
+    "default_10": ["planner.improving_effort=20", "planner.max_nodes=100000000"],
     "rrt_500": ["planner.name=rrt", "planner.cost=steps", "planner.unimproved_nodes=500"],
     "astar_500": ["planner.name=astar", "planner.cost=steps", "planner.unimproved_nodes=500"],
     "rrt_5000": ["planner.name=rrt", "planner.cost=steps"] + TEN,

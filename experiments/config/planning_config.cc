@@ -90,7 +90,7 @@ std::string PlannerConfig::CostName(bool in_time) const {
 
 Termination PlannerConfig::Enough(bool in_time) const {
   constexpr std::int64_t kUnimproved = 500;
-  constexpr double kInTime = 4.0;  // times the work, since half-steps cost more there
+  constexpr double kInTime = 2.0;  // times the work, since half-steps cost more there
   const bool best = name == kBest;
   if (unimproved_nodes == 0.0) return AtFirstPlan();
   std::vector<Termination> all;
@@ -178,7 +178,7 @@ void DeclarePlanner(Fields& fields, PlannerConfig* c) {
   }
   fields.Number("improving_effort", &c->improving_effort,
                 {.meaning = "`best` looks for better plans until this much work is used (in time "
-                            "four times that), or three times what the first plan took",
+                            "twice that), or three times what the first plan took",
                  .min = 0.001,
                  .max = 86400});
   fields.Number("effort", &c->effort,

@@ -34,7 +34,7 @@ struct PlannerConfig {
   int max_nodes = 100000;     ///< ends the search
   /// Ends after these without a better plan; 0: at the first plan; none: as `name` wants it.
   std::optional<double> unimproved_nodes = {};
-  double improving_effort = 1.0;  ///< of `best`: ends when there is a plan after this much work
+  double improving_effort = 2.0;  ///< of `best`: ends when there is a plan after this much work
   double effort = 60.0;           ///< ends the search (PlanProgress::effort)
   double deadline = 0.0;          ///< an emergency stop by the clock [s]; 0: none
   int max_refusals = 5;           ///< plans that the full check may refuse before planning ends

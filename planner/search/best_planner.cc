@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 
+#include "planner/search/beam_search.h"
 #include "planner/search/fewest_steps.h"
 #include "planner/search/least_cost.h"
 #include "planner/search/plan_search.h"
@@ -22,13 +23,17 @@ namespace {
 constexpr double kFirstTurn = 0.05;      // effort until another kind of search looks for a plan
 constexpr double kTurnsGrow = 2.0;       // from round to round
 constexpr double kFewestFirst = 10.0;    // times such a turn, for A* of the fewest footsteps
-constexpr double kFewest = 5.0;          // times a turn that improves a plan, for the same
 constexpr double kImprovingTurn = 0.02;  // effort of the first turns that improve it
 constexpr int kRestarts = 2;             // of a random tree, a round
 constexpr int kPlaces = 4000;            // of the map
 /// Of A*, one turn after the other: the larger, the sooner it finds a way.
 constexpr double kWeights[] = {2.0, 1.4, 1.15};
 constexpr double kFirstWeight = 5.0;
+constexpr double kFirstWidth = 128.0;  // of beams
+constexpr double kWider = 1.2;         // from round to round
+constexpr double kOfAState = 7e-4;     // effort of a beam for each state of its width
+constexpr double kHeaviest = 1.5;      // largest weight of a beam, least 1
+constexpr double kLargestCells = 4.0;  // of a beam, times those of A*
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
 // One call of Plan.
@@ -66,7 +71,7 @@ class BestSearch {
       }
       if (edges_ == nullptr) {
         monitor_.Allow(kFewestFirst * turn);
-        const bool ended = SearchFewest().ended;
+        const bool ended = SearchFewest();
         if (!monitor_.plans().empty()) break;
         if (monitor_.stopped()) return {};
         if (ended) return {.exhausted = true};
@@ -79,14 +84,10 @@ class BestSearch {
     if (monitor_.Stop()) return {};
     if (!request_.ground) map_.emplace(request_.set, starts_.front(), kPlaces, &graph_);
     led_[Index()].clear();
-    if (fewest_[Index()].search) {  // it goes on for as long as all took that came before
-      monitor_.Allow(monitor_.progress().effort());
-      SearchFewest();
-      if (monitor_.stopped()) return {};
-    }
     coarse_ = true;
-    for (double turn = kImprovingTurn; !IsCheapest(); turn *= 1.5) {
-      const bool nothing_better = Round(turn);
+    const double turns_grow = edges_ == nullptr ? 1.2 : 1.5;
+    for (double turn = kImprovingTurn; !IsCheapest(); turn *= turns_grow) {
+      const bool nothing_better = edges_ == nullptr ? Round(turn) : RoundInTime(turn);
       if (nothing_better && !coarse_) break;
       if (monitor_.stopped()) return {};
       coarse_ = !coarse_ && !nothing_better;
@@ -95,18 +96,6 @@ class BestSearch {
   }
 
  private:
-  // A search that takes turns.
-  template <class Search>
-  struct Turns {
-    std::unique_ptr<Search> search = {};
-    bool ended = false;
-    double of = 0.0;  // cost of the plan that it searches along
-    // Goes on, unless it has ended.
-    void Run() {
-      if (!ended) ended = search->Run();
-    }
-  };
-
   // Whether no plan is cheaper than the best.
   bool IsCheapest() const {
     return std::ranges::all_of(starts_, [this](const StepState& start) {
@@ -117,62 +106,64 @@ class BestSearch {
 
   // One turn of each way to improve the best plan; whether nothing is better.
   bool Round(double turn) {
-    StepPlan fewest;
-    if (edges_ == nullptr) {  // in time they are what costs least
-      monitor_.Allow(kFewest * turn);
-      fewest = SearchFewest().search->plan();
-    }
-    if (!fewest.ks.empty() && !monitor_.stopped()) {
-      monitor_.Allow(turn);
-      fewest = Shorten(std::move(fewest));
-    }
-    if (!fewest.ks.empty() && !monitor_.stopped()) {
-      monitor_.Allow(turn);
-      SearchAlong(fewest, &along_fewest_[Index()]);
+    SearchBeam(Along(monitor_.plans().back(), 1.0));
+    if (monitor_.stopped()) return false;
+    monitor_.Allow(turn);
+    Shorten(monitor_.plans().back());
+    if (monitor_.stopped()) return false;
+    SearchBeam(ByLeastCost());
+    for (int restart = 0; restart < kRestarts && !monitor_.stopped(); ++restart) {
+      const StepPlan other = GrowOther(turn);
+      if (!other.ks.empty() && !monitor_.stopped()) SearchBeam(Along(other, 1.0));
     }
     if (monitor_.stopped()) return false;
+    width_ *= kWider;
+    monitor_.Allow(turn);
+    return SearchWith(std::ranges::min(kWeights));
+  }
+
+  // The same in time.
+  bool RoundInTime(double turn) {
     for (const double weight : kWeights) {
       monitor_.Allow(turn);
       if (SearchWith(weight)) return true;
       if (monitor_.stopped()) return false;
     }
-    if (waiting_) Wait(turn);
+    Wait(turn);
     if (monitor_.stopped()) return false;
     monitor_.Allow(turn);
-    SearchAlong(monitor_.plans().back(), &along_best_[Index()]);
+    const StepPlan& best = monitor_.plans().back();
+    NearPlan& near = near_best_[Index()];
+    if (!near.search || near.of != best.cost) near = {SearchNear(best), best.cost};
+    near.Run();
     if (monitor_.stopped()) return false;
     monitor_.Allow(turn);
     Shorten(monitor_.plans().back());
     if (monitor_.stopped()) return false;
     for (int restart = 0; restart < kRestarts && !monitor_.stopped(); ++restart) {
-      monitor_.Allow(turn);
-      StepPlan other;
-      Grow(edges_, &other);
+      const StepPlan other = GrowOther(turn);
       if (other.ks.empty() || monitor_.stopped()) continue;
-      other = Shorten(std::move(other));
-      if (monitor_.stopped()) break;
       monitor_.Allow(turn);
-      Turns<StepSearch> along;
-      SearchAlong(other, &along);
+      SearchNear(other)->Run();
     }
     return false;
   }
 
   // In time: a turn each of a tree and A* that wait until all is at rest.
   void Wait(double turn) {
-    if (wait_.ended) return;
+    if (waited_) return;
     monitor_.Allow(turn);
     StepPlan found;
     Grow(&*waiting_, &found);
     if (!found.ks.empty() && !monitor_.stopped()) Shorten(std::move(found));
     if (monitor_.stopped()) return;
     monitor_.Allow(turn);
-    if (!wait_.search) {
-      wait_.search = std::make_unique<StepSearch>(
+    if (!wait_) {
+      wait_ = std::make_unique<StepSearch>(
           starts_, ByLeastCost(), StepSearchOptions{{kFirstWeight, 2.0, 1.4, 1.15}, cells_},
           &graph_, &monitor_, &*waiting_);
     }
-    wait_.Run();
+    waited_ = wait_->Run();
   }
 
   // Until the turn ends.
@@ -195,6 +186,15 @@ class BestSearch {
     return end == TreeEnd::kExhausted;
   }
 
+  // A turn each: another plan from the start, shortened; without footsteps: none was found.
+  StepPlan GrowOther(double turn) {
+    StepPlan other;
+    monitor_.Allow(turn);
+    Grow(edges_, &other);
+    if (other.ks.empty() || monitor_.stopped()) return other;
+    return Shorten(std::move(other));
+  }
+
   size_t Index() const { return coarse_ ? 1 : 0; }  // of a search with Cells()
 
   // Of A*: in every second round, from the first on, larger ones, which leave fewer states.
@@ -204,15 +204,24 @@ class BestSearch {
     return {.position = kLarger * cells_.position, .yaw = kLarger * cells_.yaw};
   }
 
-  Turns<FewestSteps>& SearchFewest() {
-    Turns<FewestSteps>& turns = fewest_[Index()];
-    if (!turns.search) {
-      turns.search =
-          std::make_unique<FewestSteps>(request_, starts_, StepSearchOptions{.cells = Cells()},
-                                        map_ && coarse_ ? &*map_ : nullptr, &graph_, &monitor_);
+  // Whether it has ended by itself.
+  bool SearchFewest() {
+    if (!fewest_) {
+      fewest_ = std::make_unique<FewestSteps>(request_, starts_, StepSearchOptions{.cells = cells_},
+                                              &graph_, &monitor_);
     }
-    turns.Run();
-    return turns;
+    return fewest_->Run();
+  }
+
+  // A beam whose cells and weight are drawn: one finds what another leaves out.
+  void SearchBeam(const StepSearch::ToGo& to_go) {
+    const double larger = std::exp(Uniform(0.0, std::log(kLargestCells), random_));
+    const BeamOptions options{
+        .width = static_cast<int>(width_),
+        .cells = {.position = larger * cells_.position, .yaw = larger * cells_.yaw},
+        .weight = Uniform(1.0, kHeaviest, random_)};
+    monitor_.Allow(kOfAState * width_);
+    halfstep::SearchBeam(starts_, to_go, options, &graph_, &monitor_);
   }
 
   StepSearch::ToGo ByLeastCost() const {
@@ -249,27 +258,28 @@ class BestSearch {
         edges_);
   }
 
-  // A* near a plan, which tells how far it is to the goal around what stands in between.
-  void SearchAlong(const StepPlan& plan, Turns<StepSearch>* turns) {
-    constexpr double kNear = 0.4;    // [m] of its states, by StateDistance
-    constexpr double kBetter = 0.9;  // what a good plan costs of it
-    const auto to_go = [this, path = StatesOf(graph_, plan, edges_),
-                        cost = plan.cost](const StepState& state) {
+  // Near a plan, which tells how far it is to the goal around what stands in between. `better`:
+  // what a good plan costs of it.
+  StepSearch::ToGo Along(const StepPlan& plan, double better) const {
+    constexpr double kNear = 0.4;  // [m] of its states, by StateDistance
+    return [this, path = StatesOf(graph_, plan, edges_), cost = plan.cost,
+            better](const StepState& state) {
       double guess = std::numeric_limits<double>::infinity();
       for (size_t j = 0; j < path.states.size(); ++j) {
         const Pose2 X_WS = state.X_WS.Planar(), near = path.states[j].X_WS.Planar();
         if ((X_WS.position() - near.position()).squaredNorm() > kNear * kNear) continue;
         const double away = StateDistance(X_WS, near, true);
         if (away > kNear) continue;
-        guess = std::min(guess, kBetter * (cost - path.costs[j]) + least_.per_metre() * away);
+        guess = std::min(guess, better * (cost - path.costs[j]) + least_.per_metre() * away);
       }
       const double each = graph_.reach().least_cost(), bound = least_.From(state);
       return StepsToGo{.bound = bound / each, .guess = std::max(bound, guess) / each};
     };
-    if (!turns->search || turns->of != plan.cost) {
-      *turns = {.search = Search(to_go, 1.0), .of = plan.cost};
-    }
-    turns->Run();
+  }
+
+  // A* near a plan.
+  std::unique_ptr<StepSearch> SearchNear(const StepPlan& plan) {
+    return Search(Along(plan, 0.9), 1.0);
   }
 
   const PlanRequest& request_;
@@ -284,11 +294,21 @@ class BestSearch {
   TimedEdges* edges_ = nullptr;  // null: not in time
   bool coarse_ = false;
   std::optional<StandMap> map_;
-  // By Index().
-  std::array<Turns<FewestSteps>, 2> fewest_;
-  std::array<Turns<StepSearch>, 2> along_fewest_, along_best_;
+  double width_ = kFirstWidth;
+  std::unique_ptr<FewestSteps> fewest_;
+  // By Index(); in time.
+  struct NearPlan {
+    std::unique_ptr<StepSearch> search = {};
+    double of = 0.0;  // cost of the plan
+    bool ended = false;
+    void Run() {
+      if (!ended) ended = search->Run();
+    }
+  };
+  std::array<NearPlan, 2> near_best_;
   std::array<std::map<double, std::unique_ptr<StepSearch>>, 2> led_;  // and by weight
-  Turns<StepSearch> wait_;
+  std::unique_ptr<StepSearch> wait_;
+  bool waited_ = false;
 };
 
 }  // namespace

@@ -8,11 +8,12 @@
 
 namespace halfstep {
 
-/// Finds a plan, and then better ones until it is told to stop: random trees and short-cuts, which
-/// soon find some way, take turns with weighted A*, which finds the best of those nearby and knows
-/// when nothing is better. Turns grow from round to round, and A* goes on where its turn ended. A*
-/// is led by LeastCost and, where half-steps are called free by volumes, by a StandMap. In time the
-/// same searches are those in time, and others wait until all is at rest.
+/// Finds a plan, and then better ones until it is told to stop. Random trees, which soon find some
+/// way, take turns with weighted A*; what improves a plan are beams along it, along other trees and
+/// from nowhere, short-cuts, and A*, which knows when nothing is better. Turns grow from round to
+/// round, and A* goes on where its turn ended. Guesses are those of LeastCost and, where half-steps
+/// are called free by volumes, of a StandMap. In time the same searches but beams are those in
+/// time, and others wait until all is at rest.
 class BestPlanner : public FootstepPlanner {
  public:
   /// Of the random trees, and the cells of A*.

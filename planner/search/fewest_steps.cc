@@ -7,10 +7,8 @@
 namespace halfstep {
 
 FewestSteps::FewestSteps(const PlanRequest& request, const std::vector<StepState>& starts,
-                         const StepSearchOptions& options, const StandMap* map, StepGraph* graph,
-                         PlanMonitor* monitor)
-    : map_(map),
-      graph_(*graph),
+                         const StepSearchOptions& options, StepGraph* graph, PlanMonitor* monitor)
+    : graph_(*graph),
       monitor_(*monitor),
       request_(Counted(request)),
       steps_(request_, graph->elements()),
@@ -36,14 +34,8 @@ PlanRequest FewestSteps::Counted(const PlanRequest& request) {
 }
 
 StepsToGo FewestSteps::ToGo(const StepState& state) const {
-  constexpr double kOffTheMap = 3.0;  // footsteps more than without it
-  const auto bound = static_cast<double>(steps_.LeastSteps(state));
-  const double guess = steps_.SteadySteps(state);
-  if (map_ == nullptr) return {.bound = bound, .guess = guess};
-  const double per_step = 0.5 * steps_.reach().Distance(2);
-  const double way = map_->Way(state.X_WS.Planar().position());
-  return {.bound = bound,
-          .guess = std::isfinite(way) ? std::max(guess, way / per_step) : guess + kOffTheMap};
+  return {.bound = static_cast<double>(steps_.LeastSteps(state)),
+          .guess = steps_.SteadySteps(state)};
 }
 
 bool FewestSteps::Run() {
@@ -65,8 +57,7 @@ void FewestSteps::Take() {
       state = graph_.After(state, k);
     }
     if (forbidden) continue;
-    monitor_.Offer(plan);
-    plan_ = std::move(plan);
+    monitor_.Offer(std::move(plan));
   }
 }
 

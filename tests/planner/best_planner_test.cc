@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include "planner/search/beam_search.h"
 #include "planner/search/footstep_astar.h"
 #include "planner/search/least_cost.h"
 #include "planner/search/plan_search.h"
@@ -162,6 +163,56 @@ TEST(StepSearch, GoesOnWhereItsTurnEnded) {
   EXPECT_EQ(parts.plans, whole.plans);
   EXPECT_EQ(parts.nodes, whole.nodes);
   EXPECT_EQ(parts.queries, whole.queries);
+}
+
+// Where nothing is left out and no two states share a cell, the plan is the cheapest, whatever the
+// guess. A narrow beam finds none that is cheaper.
+TEST(SearchBeam, LeavesOutOnlyWhatIsBeyondItsWidth) {
+  const StepSet set = PlausibleSet();
+  const FlatQuery query(set, WallWithGap(0.3, 0.3));
+  PlanRequest request = RequestTo({0.5, 0.0, 0.0}, set, query);
+  request.cost.kind = CostKind::kSmoothedDuration;
+  request.stop = AfterEffort(60.0);
+  const std::vector<int> elements = ClassicSubset(set);
+  const PoseCells apart{.position = 1e-6, .yaw = 1e-6};
+  const auto cheapest = [&](auto search) {
+    StepGraph graph(request, elements);
+    PlanMonitor monitor(request, graph);
+    const auto to_go = [&graph](const StepState& state) {
+      const auto bound = static_cast<double>(graph.LeastSteps(state));
+      return StepsToGo{.bound = bound, .guess = bound};
+    };
+    search(graph.FreeStarts(), to_go, &graph, &monitor);
+    EXPECT_FALSE(monitor.stopped());
+    return monitor.best_cost();
+  };
+  const double least = cheapest([&](const auto& starts, const auto& to_go, auto* graph, auto* end) {
+    StepSearch(starts, to_go, {.weights = {1.0}, .cells = apart}, graph, end).Run();
+  });
+  ASSERT_TRUE(std::isfinite(least));
+  const auto beam = [&](int width, double weight) {
+    return cheapest([&](const auto& starts, const auto& to_go, auto* graph, auto* end) {
+      SearchBeam(starts, to_go, {.width = width, .cells = apart, .weight = weight}, graph, end);
+    });
+  };
+  for (const double weight : {0.0, 1.0, 3.0}) EXPECT_DOUBLE_EQ(beam(1000000, weight), least);
+  EXPECT_TRUE(std::isfinite(beam(30, 1.0)));
+  for (const int width : {1, 3, 30}) EXPECT_GE(beam(width, 1.0), least);
+}
+
+TEST(SearchBeam, EndsWithItsTurn) {
+  const StepSet set = PlausibleSet();
+  const FlatQuery query(set, {});
+  PlanRequest request = RequestTo({2.0, 0.0, 0.0}, set, query);
+  request.stop = AfterEffort(60.0);
+  StepGraph graph(request, AllElements(set));
+  PlanMonitor monitor(request, graph);
+  monitor.Allow(0.01);
+  const auto nowhere = [](const StepState&) { return StepsToGo{}; };
+  SearchBeam(graph.FreeStarts(), nowhere, {.width = 1000000}, &graph, &monitor);
+  EXPECT_FALSE(monitor.stopped());
+  EXPECT_GE(monitor.progress().effort(), 0.01);
+  EXPECT_LT(monitor.progress().effort(), 0.011);
 }
 
 TEST(PlanMonitor, ATurnEndsWithoutEndingThePlanning) {
