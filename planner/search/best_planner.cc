@@ -23,17 +23,16 @@ namespace {
 constexpr double kFirstTurn = 0.05;      // effort until another kind of search looks for a plan
 constexpr double kTurnsGrow = 2.0;       // from round to round
 constexpr double kFewestFirst = 10.0;    // times such a turn, for A* of the fewest footsteps
-constexpr double kImprovingTurn = 0.02;  // effort of the first turns that improve it
+constexpr double kImprovingTurn = 0.02;  // effort of turns that improve it: the first in time
 constexpr int kRestarts = 2;             // of a random tree, a round
 constexpr int kPlaces = 4000;            // of the map
 /// Of A*, one turn after the other: the larger, the sooner it finds a way.
 constexpr double kWeights[] = {2.0, 1.4, 1.15};
 constexpr double kFirstWeight = 5.0;
-constexpr double kFirstWidth = 128.0;  // of beams
-constexpr double kWider = 1.2;         // from round to round
-constexpr double kOfAState = 7e-4;     // effort of a beam for each state of its width
-constexpr double kHeaviest = 1.5;      // largest weight of a beam, least 1
-constexpr double kLargestCells = 4.0;  // of a beam, times those of A*
+constexpr double kOfAState = 7e-4;      // effort of a beam for each state of its width, at most
+constexpr double kWidth = 6400.0;       // of a beam in a turn of effort 1
+constexpr double kHeaviest = 1.5;       // largest weight of a beam, least 1
+constexpr double kRootOfLargest = 2.0;  // of the cells of a beam, times those of A*
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
 // One call of Plan.
@@ -85,9 +84,10 @@ class BestSearch {
     if (!request_.ground) map_.emplace(request_.set, starts_.front(), kPlaces, &graph_);
     led_[Index()].clear();
     coarse_ = true;
-    const double turns_grow = edges_ == nullptr ? 1.2 : 1.5;
-    for (double turn = kImprovingTurn; !IsCheapest(); turn *= turns_grow) {
+    double turn = edges_ == nullptr ? kImprovingTurn / 8.0 : kImprovingTurn;
+    while (!IsCheapest()) {
       const bool nothing_better = edges_ == nullptr ? Round(turn) : RoundInTime(turn);
+      turn *= edges_ != nullptr ? 1.5 : turn < kImprovingTurn ? 2.0 : 1.2;
       if (nothing_better && !coarse_) break;
       if (monitor_.stopped()) return {};
       coarse_ = !coarse_ && !nothing_better;
@@ -106,18 +106,17 @@ class BestSearch {
 
   // One turn of each way to improve the best plan; whether nothing is better.
   bool Round(double turn) {
-    SearchBeam(Along(monitor_.plans().back(), 1.0));
+    SearchBeam(Along(monitor_.plans().back(), 1.0), turn);
     if (monitor_.stopped()) return false;
     monitor_.Allow(turn);
     Shorten(monitor_.plans().back());
     if (monitor_.stopped()) return false;
-    SearchBeam(ByLeastCost());
+    SearchBeam(ByLeastCost(), turn);
     for (int restart = 0; restart < kRestarts && !monitor_.stopped(); ++restart) {
       const StepPlan other = GrowOther(turn);
-      if (!other.ks.empty() && !monitor_.stopped()) SearchBeam(Along(other, 1.0));
+      if (!other.ks.empty() && !monitor_.stopped()) SearchBeam(Along(other, 1.0), turn);
     }
     if (monitor_.stopped()) return false;
-    width_ *= kWider;
     monitor_.Allow(turn);
     return SearchWith(std::ranges::min(kWeights));
   }
@@ -214,13 +213,13 @@ class BestSearch {
   }
 
   // A beam whose cells and weight are drawn: one finds what another leaves out.
-  void SearchBeam(const StepSearch::ToGo& to_go) {
-    const double larger = std::exp(Uniform(0.0, std::log(kLargestCells), random_));
+  void SearchBeam(const StepSearch::ToGo& to_go, double turn) {
+    const double root = Uniform(1.0, kRootOfLargest, random_), larger = root * root;
     const BeamOptions options{
-        .width = static_cast<int>(width_),
+        .width = static_cast<int>(kWidth * turn),
         .cells = {.position = larger * cells_.position, .yaw = larger * cells_.yaw},
         .weight = Uniform(1.0, kHeaviest, random_)};
-    monitor_.Allow(kOfAState * width_);
+    monitor_.Allow(kOfAState * kWidth * turn);
     halfstep::SearchBeam(starts_, to_go, options, &graph_, &monitor_);
   }
 
@@ -294,7 +293,6 @@ class BestSearch {
   TimedEdges* edges_ = nullptr;  // null: not in time
   bool coarse_ = false;
   std::optional<StandMap> map_;
-  double width_ = kFirstWidth;
   std::unique_ptr<FewestSteps> fewest_;
   // By Index(); in time.
   struct NearPlan {
