@@ -23,7 +23,6 @@ namespace {
 constexpr double kFirstTurn = 0.05;      // effort until another kind of search looks for a plan
 constexpr double kTurnsGrow = 2.0;       // from round to round
 constexpr double kFewestFirst = 10.0;    // times such a turn, for A* of the fewest footsteps
-constexpr double kFewest = 3.0;          // times a turn that improves a plan, for the same
 constexpr double kImprovingTurn = 0.02;  // effort of turns that improve it: the first in time
 constexpr int kRestarts = 2;             // of a random tree, a round
 constexpr int kPlaces = 4000;            // of the map
@@ -118,7 +117,7 @@ class BestSearch {
       if (!other.ks.empty() && !monitor_.stopped()) SearchBeam(Along(other, 1.0), turn);
     }
     if (monitor_.stopped()) return false;
-    monitor_.Allow(kFewest * turn);
+    monitor_.Allow(turn);
     SearchFewest();
     if (monitor_.stopped()) return false;
     monitor_.Allow(turn);
