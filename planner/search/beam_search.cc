@@ -38,7 +38,7 @@ class Beam {
     }
   }
 
-  // One turn a number of footsteps.
+  // In each round, the states that one footstep more leads to.
   void Run() {
     for (size_t first = 0, last = nodes_.size(); first < last;) {
       candidates_.clear();

@@ -23,7 +23,7 @@ namespace {
 constexpr double kFirstTurn = 0.05;      // effort until another kind of search looks for a plan
 constexpr double kTurnsGrow = 2.0;       // from round to round
 constexpr double kFewestFirst = 10.0;    // times such a turn, for A* of the fewest footsteps
-constexpr double kImprovingTurn = 0.02;  // effort of turns that improve it: the first in time
+constexpr double kImprovingTurn = 0.02;  // effort of early turns that improve it
 constexpr int kRestarts = 2;             // of a random tree, a round
 constexpr int kPlaces = 4000;            // of the map
 /// Of A*, one turn after the other: the larger, the sooner it finds a way.
@@ -96,6 +96,16 @@ class BestSearch {
   }
 
  private:
+  // A search near a plan of that cost, which takes turns.
+  struct NearPlan {
+    std::unique_ptr<StepSearch> search = {};
+    double of = 0.0;
+    bool ended = false;
+    void Run() {
+      if (!ended) ended = search->Run();
+    }
+  };
+
   // Whether no plan is cheaper than the best.
   bool IsCheapest() const {
     return std::ranges::all_of(starts_, [this](const StepState& start) {
@@ -104,17 +114,17 @@ class BestSearch {
     });
   }
 
-  // One turn of each way to improve the best plan; whether nothing is better.
+  // A turn of each way to improve the best plan; whether nothing is better.
   bool Round(double turn) {
-    SearchBeam(Along(monitor_.plans().back(), 1.0), turn);
+    RunBeam(Along(monitor_.plans().back(), 1.0), turn);
     if (monitor_.stopped()) return false;
     monitor_.Allow(turn);
     Shorten(monitor_.plans().back());
     if (monitor_.stopped()) return false;
-    SearchBeam(ByLeastCost(), turn);
+    RunBeam(ByLeastCost(), turn);
     for (int restart = 0; restart < kRestarts && !monitor_.stopped(); ++restart) {
       const StepPlan other = GrowOther(turn);
-      if (!other.ks.empty() && !monitor_.stopped()) SearchBeam(Along(other, 1.0), turn);
+      if (!other.ks.empty() && !monitor_.stopped()) RunBeam(Along(other, 1.0), turn);
     }
     if (monitor_.stopped()) return false;
     monitor_.Allow(turn);
@@ -216,14 +226,14 @@ class BestSearch {
   }
 
   // A beam whose cells and weight are drawn: one finds what another leaves out.
-  void SearchBeam(const StepSearch::ToGo& to_go, double turn) {
+  void RunBeam(const StepSearch::ToGo& to_go, double turn) {
     const double root = Uniform(1.0, kRootOfLargest, random_), larger = root * root;
     const BeamOptions options{
         .width = static_cast<int>(kWidth * turn),
         .cells = {.position = larger * cells_.position, .yaw = larger * cells_.yaw},
         .weight = Uniform(1.0, kHeaviest, random_)};
     monitor_.Allow(kOfAState * kWidth * turn);
-    halfstep::SearchBeam(starts_, to_go, options, &graph_, &monitor_);
+    SearchBeam(starts_, to_go, options, &graph_, &monitor_);
   }
 
   StepSearch::ToGo ByLeastCost() const {
@@ -297,19 +307,12 @@ class BestSearch {
   bool coarse_ = false;
   std::optional<StandMap> map_;
   std::unique_ptr<FewestSteps> fewest_;
-  // By Index(); in time.
-  struct NearPlan {
-    std::unique_ptr<StepSearch> search = {};
-    double of = 0.0;  // cost of the plan
-    bool ended = false;
-    void Run() {
-      if (!ended) ended = search->Run();
-    }
-  };
-  std::array<NearPlan, 2> near_best_;
+  // By Index().
   std::array<std::map<double, std::unique_ptr<StepSearch>>, 2> led_;  // and by weight
+  // In time.
+  std::array<NearPlan, 2> near_best_;  // by Index()
   std::unique_ptr<StepSearch> wait_;
-  bool waited_ = false;
+  bool waited_ = false;  // it has ended
 };
 
 }  // namespace
