@@ -10,9 +10,9 @@ namespace halfstep {
 
 /// What a beam keeps.
 struct BeamOptions {
-  int width = 128;      ///< states of as many footsteps that go on, ≥ 1
-  PoseCells cells;      ///< of states in one cell, one that costs less than those before
-  double weight = 1.0;  ///< of the guess, ≥ 0
+  int width = 128;       ///< states of as many footsteps that go on, ≥ 1
+  PoseCells cells = {};  ///< of states in one cell, one that costs less than those before
+  double weight = 1.0;   ///< of the guess, ≥ 0
 };
 
 /// Beam search: of all states that n footsteps lead to, the `width` of least cost so far plus

@@ -221,7 +221,8 @@ class Build:
         first = next(i for i, word in enumerate(words) if word.endswith(".a"))
         output = self.place / os.path.basename(target)
         words[words.index("-o") + 1] = str(output)
-        words[first:first] = objects
+        # Where archives are linked whole, what comes first counts.
+        words[first:first] = ["-Wl,-z,muldefs", *objects]
         subprocess.run(words, cwd=self.tree, check=True)
         return output
 

@@ -169,7 +169,7 @@ TEST(StepSearch, GoesOnWhereItsTurnEnded) {
 // guess. A narrow beam finds none that is cheaper.
 TEST(SearchBeam, LeavesOutOnlyWhatIsBeyondItsWidth) {
   const StepSet set = PlausibleSet();
-  const FlatQuery query(set, WallWithGap(0.3, 0.3));
+  const FlatQuery query(set, {});
   PlanRequest request = RequestTo({0.5, 0.0, 0.0}, set, query);
   request.cost.kind = CostKind::kSmoothedDuration;
   request.stop = AfterEffort(60.0);

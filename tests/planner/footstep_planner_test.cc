@@ -8,6 +8,7 @@
 #include <random>
 #include <set>
 
+#include "planner/search/beam_search.h"
 #include "planner/search/footstep_astar.h"
 #include "planner/search/footstep_rrt.h"
 #include "planner/search/plan_search.h"
@@ -186,6 +187,17 @@ TEST(Shortcut, EveryHalfStepOfAShortenedPlanIsFree) {
   EXPECT_GT(shortened, 10);
 }
 
+// Asks about every half-step of a plan from a state on.
+void ExpectFree(const PlanRequest& request, StepState state, const std::vector<int>& elements) {
+  StepGraph graph(request, AllElements(request.set));
+  for (size_t i = 0; i < elements.size(); ++i) {
+    const bool last = i + 1 == elements.size();
+    EXPECT_TRUE(graph.DownIsFree(state, elements[i])) << "footstep " << i;
+    EXPECT_TRUE(last || graph.UpIsFree(state, elements[i])) << "footstep " << i;
+    state = graph.After(state, elements[i]);
+  }
+}
+
 TEST(FootstepAStar, EveryHalfStepOfAPlanIsFree) {
   const StepSet set = PlausibleSet();
   const CapriciousQuery query;
@@ -195,16 +207,29 @@ TEST(FootstepAStar, EveryHalfStepOfAPlanIsFree) {
     const PlanRequest request = RequestTo({1.5, 0.1 * trial, 0.0}, set, query);
     const PlanResult result = planner.Plan(request, random);
     ASSERT_EQ(result.status, PlanStatus::kSolved);
-    StepGraph graph(request, AllElements(set));
     const Side support = Opposite(result.footsteps[0].side);
-    StepState state{request.start[static_cast<size_t>(Index(support))], support};
-    for (size_t i = 0; i < result.elements.size(); ++i) {
-      const bool last = i + 1 == result.elements.size();
-      EXPECT_TRUE(graph.DownIsFree(state, result.elements[i])) << "footstep " << i;
-      EXPECT_TRUE(last || graph.UpIsFree(state, result.elements[i])) << "footstep " << i;
-      state = graph.After(state, result.elements[i]);
-    }
+    ExpectFree(request, {request.start[static_cast<size_t>(Index(support))], support},
+               result.elements);
   }
+}
+
+TEST(SearchBeam, EveryHalfStepOfAPlanIsFree) {
+  const StepSet set = PlausibleSet();
+  const CapriciousQuery query;
+  int plans = 0;
+  for (int trial = 0; trial < 10; ++trial) {
+    PlanRequest request = RequestTo({1.0, 0.1 * trial, 0.0}, set, query);
+    request.stop = AfterEffort(10.0);
+    StepGraph graph(request, AllElements(set));
+    PlanMonitor monitor(request, graph);
+    const auto to_go = [&graph](const StepState& state) {
+      return StepsToGo{static_cast<double>(graph.LeastSteps(state)), graph.SteadySteps(state)};
+    };
+    SearchBeam(graph.FreeStarts(), to_go, {.width = 30}, &graph, &monitor);
+    for (const StepPlan& plan : monitor.plans()) ExpectFree(request, plan.start, plan.ks);
+    plans += static_cast<int>(monitor.plans().size());
+  }
+  EXPECT_GE(plans, 10);
 }
 
 }  // namespace
