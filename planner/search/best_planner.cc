@@ -23,6 +23,7 @@ namespace {
 constexpr double kFirstTurn = 0.05;      // effort until another kind of search looks for a plan
 constexpr double kTurnsGrow = 2.0;       // from round to round
 constexpr double kFewestFirst = 10.0;    // times such a turn, for A* of the fewest footsteps
+constexpr double kFewest = 3.0;          // times a turn that improves a plan, for the same
 constexpr double kImprovingTurn = 0.02;  // effort of early turns that improve it
 constexpr int kRestarts = 2;             // of a random tree, a round
 constexpr int kPlaces = 4000;            // of the map
@@ -83,6 +84,11 @@ class BestSearch {
     if (monitor_.Stop()) return {};
     if (!request_.ground) map_.emplace(request_.set, starts_.front(), kPlaces, &graph_);
     led_[Index()].clear();
+    if (fewest_[Index()]) {  // it goes on for as long as all took that came before
+      monitor_.Allow(monitor_.progress().effort());
+      SearchFewest();
+      if (monitor_.stopped()) return {};
+    }
     coarse_ = true;
     double turn = edges_ == nullptr ? kImprovingTurn / 8.0 : kImprovingTurn;
     while (!IsCheapest()) {
@@ -127,7 +133,7 @@ class BestSearch {
       if (!other.ks.empty() && !monitor_.stopped()) RunBeam(Along(other, 1.0), turn);
     }
     if (monitor_.stopped()) return false;
-    monitor_.Allow(turn);
+    monitor_.Allow(kFewest * turn);
     SearchFewest();
     if (monitor_.stopped()) return false;
     monitor_.Allow(turn);
@@ -218,11 +224,13 @@ class BestSearch {
 
   // Whether it has ended by itself.
   bool SearchFewest() {
-    if (!fewest_) {
-      fewest_ = std::make_unique<FewestSteps>(request_, starts_, StepSearchOptions{.cells = cells_},
-                                              &graph_, &monitor_);
+    std::unique_ptr<FewestSteps>& search = fewest_[Index()];
+    if (!search) {
+      search =
+          std::make_unique<FewestSteps>(request_, starts_, StepSearchOptions{.cells = Cells()},
+                                        map_ && coarse_ ? &*map_ : nullptr, &graph_, &monitor_);
     }
-    return fewest_->Run();
+    return search->Run();
   }
 
   // A beam whose cells and weight are drawn: one finds what another leaves out.
@@ -306,8 +314,8 @@ class BestSearch {
   TimedEdges* edges_ = nullptr;  // null: not in time
   bool coarse_ = false;
   std::optional<StandMap> map_;
-  std::unique_ptr<FewestSteps> fewest_;
   // By Index().
+  std::array<std::unique_ptr<FewestSteps>, 2> fewest_;
   std::array<std::map<double, std::unique_ptr<StepSearch>>, 2> led_;  // and by weight
   // In time.
   std::array<NearPlan, 2> near_best_;  // by Index()

@@ -7,8 +7,10 @@
 namespace halfstep {
 
 FewestSteps::FewestSteps(const PlanRequest& request, const std::vector<StepState>& starts,
-                         const StepSearchOptions& options, StepGraph* graph, PlanMonitor* monitor)
-    : graph_(*graph),
+                         const StepSearchOptions& options, const StandMap* map, StepGraph* graph,
+                         PlanMonitor* monitor)
+    : map_(map),
+      graph_(*graph),
       monitor_(*monitor),
       request_(Counted(request)),
       steps_(request_, graph->elements()),
@@ -34,8 +36,14 @@ PlanRequest FewestSteps::Counted(const PlanRequest& request) {
 }
 
 StepsToGo FewestSteps::ToGo(const StepState& state) const {
-  return {.bound = static_cast<double>(steps_.LeastSteps(state)),
-          .guess = steps_.SteadySteps(state)};
+  constexpr double kOffTheMap = 3.0;  // footsteps more than without it
+  const auto bound = static_cast<double>(steps_.LeastSteps(state));
+  const double guess = steps_.SteadySteps(state);
+  if (map_ == nullptr) return {.bound = bound, .guess = guess};
+  const double per_step = 0.5 * steps_.reach().Distance(2);
+  const double way = map_->Way(state.X_WS.Planar().position());
+  return {.bound = bound,
+          .guess = std::isfinite(way) ? std::max(guess, way / per_step) : guess + kOffTheMap};
 }
 
 bool FewestSteps::Run() {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "planner/search/plan_search.h"
+#include "planner/search/stand_map.h"
 #include "planner/search/step_search.h"
 
 namespace halfstep {
@@ -13,9 +14,10 @@ namespace halfstep {
 class FewestSteps {
  public:
   /// All are borrowed but `starts` and `options`. Effort and plans are those of `monitor`, where a
-  /// plan has the cost that `graph` says.
+  /// plan has the cost that `graph` says. `map`: tells ways around what is in between; null: none.
   FewestSteps(const PlanRequest& request, const std::vector<StepState>& starts,
-              const StepSearchOptions& options, StepGraph* graph, PlanMonitor* monitor);
+              const StepSearchOptions& options, const StandMap* map, StepGraph* graph,
+              PlanMonitor* monitor);
   FewestSteps(const FewestSteps&) = delete;
   FewestSteps& operator=(const FewestSteps&) = delete;
 
@@ -27,6 +29,7 @@ class FewestSteps {
   StepsToGo ToGo(const StepState& state) const;
   void Take();
 
+  const StandMap* map_;
   StepGraph& graph_;
   PlanMonitor& monitor_;
   std::int64_t nodes_ = 0, queries_ = 0;  // told to monitor_ and graph_
